@@ -81,9 +81,10 @@ class HRI_API MixtureBank {
 
 /// How a bank is estimated from sums.
 struct BankEstimation {
-  VectorD variance_floor;      ///< (dim)
-  double weight_floor = 0;     ///< weights are rescaled after it
-  double weight_prior = 0;     ///< imagined frames of every component
+  VectorD variance_floor;   ///< (dim)
+  double weight_floor = 0;  ///< smaller weights are raised to it; as all are rescaled to sum to 1
+                            ///< then, the smallest may lie below
+  double weight_prior = 0;  ///< imagined frames of every component
   bool tied_variance = false;  ///< one vector of variances for all components of all states
 };
 
