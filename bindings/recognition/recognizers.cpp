@@ -198,6 +198,10 @@ void bind_words(py::module_& m) {
           [](const hri::WordRecognizer& self) { return self.calibration().threshold(); },
           "Score from which a word is recognised.")
       .def_property_readonly(
+          "is_calibrated",
+          [](const hri::WordRecognizer& self) { return self.calibration().is_fitted(); },
+          "Whether anything was held out to calibrate on; else nothing is rejected.")
+      .def_property_readonly(
           "held_out",
           [](const hri::WordRecognizer& self) -> std::optional<hri::HeldOutReport> {
             if (self.held_out().empty()) return std::nullopt;
@@ -305,6 +309,10 @@ void bind_gestures(py::module_& m) {
           },
           py::arg("hands"))
       .def_property_readonly("is_dynamic", &hri::GestureRecognizer::is_dynamic)
+      .def_property_readonly(
+          "is_calibrated",
+          [](const hri::GestureRecognizer& self) { return self.calibration().is_fitted(); },
+          "Whether anything was held out to calibrate on; else nothing is rejected.")
       .def_static("from_model_file", &hri::GestureRecognizer::from_model_file, py::arg("file"))
       .def("to_model_file", &hri::GestureRecognizer::to_model_file)
       .def_property_readonly("starts_at_rest", &hri::GestureRecognizer::starts_at_rest)

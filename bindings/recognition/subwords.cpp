@@ -120,6 +120,10 @@ void bind_subwords(py::module_& m) {
       .def_property_readonly(
           "threshold", [](const SubwordRecognizer& self) { return self.calibration().threshold(); },
           "Decision.score from which a word is recognised.")
+      .def_property_readonly(
+          "is_calibrated",
+          [](const SubwordRecognizer& self) { return self.calibration().is_fitted(); },
+          "Whether anything was held out to calibrate on; else nothing is rejected.")
       .def_property_readonly("options", &SubwordRecognizer::options,
                              "As trained, with what training chose.");
 }

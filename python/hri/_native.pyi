@@ -4534,7 +4534,7 @@ class GaussianMixtureHmmOptions:
     variance_floor : float, default 0.01
         share of the global variance; 0..1000000, 0 excluded
     weight_floor : float, default 0.001
-        smallest mixture weight, at most 1 / num_mixtures; 0..1
+        smaller mixture weights are raised to it, at most 1 / num_mixtures, before all are scaled to sum to 1: then they may lie a little below; 0..1
     tied_variance : bool, default False
         one vector of variances for all Gaussians of all states
     transition_prior : float, default 0.0
@@ -4642,7 +4642,7 @@ class GaussianMixtureHmmOptions:
     @property
     def weight_floor(self) -> float:
         """
-        smallest mixture weight, at most 1 / num_mixtures
+        smaller mixture weights are raised to it, at most 1 / num_mixtures, before all are scaled to sum to 1: then they may lie a little below
         """
     @weight_floor.setter
     def weight_floor(self, arg1: typing.Any) -> None: ...
@@ -5278,7 +5278,7 @@ class PossibilisticHmmOptions:
     tolerance : float, default 0.0001
         all_paths: training stops when the log-likelihood a symbol gains less; best_path: when no parameter moves more; 0..1000000
     emission_floor : float, default 0.0001
-        smallest emission share before scaling, at most 1 / num_symbols; 0..1
+        smallest emission share before scaling, at most 1 / num_symbols; best_path: smaller ones are raised to it before those of a state are scaled to sum to 1, and may lie a little below; 0..1
     seed : int, default 0
         of the start of models that are not left-right; 0..2^64 - 1
     """
@@ -5312,7 +5312,7 @@ class PossibilisticHmmOptions:
     @property
     def emission_floor(self) -> float:
         """
-        smallest emission share before scaling, at most 1 / num_symbols
+        smallest emission share before scaling, at most 1 / num_symbols; best_path: smaller ones are raised to it before those of a state are scaled to sum to 1, and may lie a little below
         """
     @emission_floor.setter
     def emission_floor(self, arg1: typing.Any) -> None: ...
@@ -6792,6 +6792,11 @@ class WordRecognizer:
         HeldOutReport, or None.
         """
     @property
+    def is_calibrated(self) -> bool:
+        """
+        Whether anything was held out to calibrate on; else nothing is rejected.
+        """
+    @property
     def labels(self) -> list[str]: ...
     @property
     def options(self) -> WordRecognizerOptions:
@@ -7075,6 +7080,11 @@ class GestureRecognizer:
         self, label: str, features: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]]
     ) -> GestureRecognizer: ...
     @property
+    def is_calibrated(self) -> bool:
+        """
+        Whether anything was held out to calibrate on; else nothing is rejected.
+        """
+    @property
     def is_dynamic(self) -> bool: ...
     @property
     def labels(self) -> list[str]: ...
@@ -7097,7 +7107,7 @@ class SpeakerAdapterOptions:
     words_per_label : float, default 5.0
         words a label, on average, from which on each word's model is adapted too; before, only what all have in common; 0..1000
     shared_frames : float, default 400.0
-        imagined frames that hold back what changes all words; 0..1e+12, 0 excluded
+        imagined frames that hold back what changes all words in each of two passes, of which the second starts from the first: of as many real frames, three quarters of the change come through, not half; 0..1e+12, 0 excluded
     prior_frames : float, default 5.0
         frames a state that weigh as much as the training; 0..1e+12, 0 excluded
     num_iterations : int, default 3
@@ -7156,7 +7166,7 @@ class SpeakerAdapterOptions:
     @property
     def shared_frames(self) -> float:
         """
-        imagined frames that hold back what changes all words
+        imagined frames that hold back what changes all words in each of two passes, of which the second starts from the first: of as many real frames, three quarters of the change come through, not half
         """
     @shared_frames.setter
     def shared_frames(self, arg1: typing.Any) -> None: ...
@@ -9541,6 +9551,11 @@ class SubwordRecognizer:
         sample_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
     ) -> SubwordRecognizer: ...
     def without_word(self, label: str) -> SubwordRecognizer: ...
+    @property
+    def is_calibrated(self) -> bool:
+        """
+        Whether anything was held out to calibrate on; else nothing is rejected.
+        """
     @property
     def labels(self) -> list[str]: ...
     @property

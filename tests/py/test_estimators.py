@@ -197,3 +197,18 @@ def test_a_broken_state_is_refused() -> None:
 def test_importing_models_imports_no_scikit_learn() -> None:
     code = "import sys, hri.models; hri.models.LinearSvm(); assert not {'sklearn', 'scipy'} & set(sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize("num_classes", [2, 3])
+def test_rows_beyond_all_densities_are_of_no_class(num_classes: int) -> None:
+    rng = np.random.default_rng(0)
+    y = np.arange(60) % num_classes
+    X = (rng.normal(size=(60, 3)) + 4.0 * y[:, None]).astype(np.float32)
+    far = np.full((1, 3), 1e20, np.float32)
+    bayes = models.GaussianBayes().fit(X, y)
+    with np.errstate(all="raise"):
+        np.testing.assert_allclose(bayes.predict_proba(far), 1.0 / num_classes)
+        np.testing.assert_allclose(bayes.predict_log_proba(far), -np.log(num_classes))
+        np.testing.assert_array_equal(models.PossibilityClassifier().fit(X, y).decision_function(far), 0.0)
+    assert not np.isnan(bayes.decision_function(far)).any()
+    np.testing.assert_allclose(bayes.predict_proba(np.vstack([X, far]))[:-1], bayes.predict_proba(X))

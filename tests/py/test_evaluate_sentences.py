@@ -77,8 +77,8 @@ def test_command_line_measures_sentences(hri, tmp_path: Path) -> None:
     assert rows[-1][3] == f"{100 * found['word_error_rate']:.1f} %"
     assert len(found["folds"][0]["items"]) == 10 and found["options"]["choose_weights"] is False
     for more, message in (
-        (("--noise", "white", "--snr", "10"), "--noise is not of signed sentences"),
-        (("--front-end", "cepstra"), "--front-end is not of signed sentences"),
+        (("--noise", "white", "--snr", "10"), "--noise is for speech and gesture"),
+        (("--front-end", "cepstra"), "--front-end is for speech and gesture"),
     ):
         refused = hri("evaluate", "sentences", "--data", folder, *more)
         assert refused.code == 2 and message in refused.err

@@ -4,14 +4,17 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import hri
+from conftest import RATE_HZ, tone_word
 from hri.cli.main import main
 from hri.core.errors import InvalidArgument
+from hri.io import write_wav_pcm16
 from hri.recognition import ConfusedPair, HeldOutReport
 
 
@@ -40,6 +43,45 @@ def test_train_says_what_it_measured_on_people_held_out(
     assert f"held_out accuracy\t{found.accuracy}" in capsys.readouterr().out
     words.add_word("3", [hri.read_audio(spoken / "1_low_0.wav")])
     assert words.held_out is not None and words.held_out.labels == ("1", "2")
+
+
+def _say(folder: Path, label: str, person: str, slope: float, base_hz: float, takes: int) -> None:
+    for take in range(takes):
+        audio = tone_word(base_hz, slope, takes * len(person + label) + take)
+        write_wav_pcm16(str(folder / f"{label}_{person}_{take}.wav"), audio, RATE_HZ)
+
+
+def test_words_are_rejected_where_each_person_alone_recorded_some(tmp_path: Path, few_fillers: None, capsys) -> None:
+    spoken, path = tmp_path / "spoken", tmp_path / "words.hri"
+    spoken.mkdir()
+    for person, base_hz in (("asha", 500.0), ("ravi", 550.0)):
+        _say(spoken, "up", person, 800.0, base_hz, 3)
+        _say(spoken, "down", person, -350.0, base_hz, 3)
+    _say(spoken, "flat", "asha", 0.0, 900.0, 3)
+    _say(spoken, "high", "ravi", 0.0, 1500.0, 3)
+    assert main(["train", "speech", "--data", str(spoken), "--out", str(path), "--front-end", "cepstra"]) == 0
+    said = capsys.readouterr().err
+    assert "every person alone recorded some label" in said and "no rejection" not in said
+    words = hri.WordRecognizer.load(path)
+    assert words.is_calibrated and words.held_out is not None and words.held_out.num_samples == 18
+    assert words.threshold > -1e6
+
+
+def test_one_recording_of_a_word_is_said_to_be_no_rejection(tmp_path: Path, few_fillers: None, capsys) -> None:
+    spoken, path = tmp_path / "spoken", tmp_path / "words.hri"
+    spoken.mkdir()
+    _say(spoken, "up", "asha", 800.0, 500.0, 1)
+    _say(spoken, "down", "ravi", -350.0, 550.0, 1)
+    out = str(tmp_path / "train.json")
+    command = ["train", "speech", "--data", str(spoken), "--out", str(path), "--front-end", "cepstra", "--json", out]
+    assert main(command) == 0
+    assert "no rejection: nothing could be held out" in capsys.readouterr().err
+    assert json.loads(Path(out).read_text())["is_calibrated"] is False
+    words = hri.WordRecognizer.load(path)
+    assert not words.is_calibrated and words.held_out is None
+    assert main(["info", str(path)]) == 0
+    shown = capsys.readouterr()
+    assert "is_calibrated\tfalse" in shown.out and "no rejection" in shown.err
 
 
 def test_pairs_that_are_confused_are_named() -> None:

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "hri/core/error.hpp"
+#include "recognition/recording_folds.hpp"
 
 namespace hri {
 
@@ -33,18 +34,38 @@ int label_index(const std::vector<std::string>& labels, const std::string& label
 std::vector<int> held_out_folds(const std::vector<int>& classes,
                                 const std::vector<std::string>& groups, int max_folds) {
   const std::set<std::string> distinct(groups.begin(), groups.end());
+  if (distinct.size() < 2) return detail::dealt_folds(classes, max_folds);
   std::vector<int> folds;
   folds.reserve(groups.size());
-  if (distinct.size() < 2) {
-    std::map<int, int> dealt;
-    for (const int c : classes) folds.push_back(dealt[c]++ % max_folds);
-    return folds;
-  }
   const int num_folds = std::min(max_folds, static_cast<int>(distinct.size()));
   for (const std::string& group : groups) {
     folds.push_back(static_cast<int>(std::distance(distinct.begin(), distinct.find(group))) %
                     num_folds);
   }
+  return folds;
+}
+
+bool detail::any_fold_is_usable(const std::vector<int>& classes, const std::vector<int>& folds) {
+  std::map<int, std::set<int>> folds_of;  // of each class
+  for (std::size_t i = 0; i < classes.size(); ++i) folds_of[classes[i]].insert(folds[i]);
+  std::set<int> needed;  // each by a class that no other fold has
+  for (const auto& of_class : folds_of) {
+    if (of_class.second.size() == 1) needed.insert(*of_class.second.begin());
+  }
+  return needed.size() < std::set<int>(folds.begin(), folds.end()).size();
+}
+
+std::vector<int> detail::usable_folds(const std::vector<int>& classes,
+                                      const std::vector<std::string>& groups, int max_folds) {
+  std::vector<int> folds = held_out_folds(classes, groups, max_folds);
+  return any_fold_is_usable(classes, folds) ? folds : dealt_folds(classes, max_folds);
+}
+
+std::vector<int> detail::dealt_folds(const std::vector<int>& classes, int max_folds) {
+  std::vector<int> folds;
+  folds.reserve(classes.size());
+  std::map<int, int> dealt;
+  for (const int c : classes) folds.push_back(dealt[c]++ % max_folds);
   return folds;
 }
 

@@ -29,7 +29,7 @@ _OTHERS = "others"
 
 @dataclass(frozen=True)
 class SpokenString:
-    """A recording of connected words: where it is, what was said, and by whom; "": by no person of the training data."""
+    """A recording of connected words: where it is, what was said, and by whom; "": by no person trained on."""
 
     path: Path
     words: list[str]

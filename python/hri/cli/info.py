@@ -13,6 +13,7 @@ import click
 
 from hri import __version__, vision
 from hri.cli.groups import CheckedCommand, refuse_given
+from hri.cli.messages import note
 from hri.cli.options import KINDS
 from hri.cli.output import json_option, say, write_json
 from hri.cli.recognizers import default_model, embedding_option, load_embedding
@@ -97,6 +98,12 @@ def _model(path: str, embedding_path: str | None) -> dict[str, Any]:
         found["held_out"] = recognizer.held_out.to_dict()
     if isinstance(recognizer, ConnectedWordRecognizer):
         found |= _sentences(recognizer)
+    if kind is None:
+        found["is_calibrated"] = recognizer.is_calibrated
+        if not recognizer.is_calibrated:
+            note(
+                "no rejection: training could hold nothing out; record every label at least twice, best by two persons"
+            )
     trained = recognizer.trained_options if isinstance(recognizer, SentenceRecognizer) else recognizer.options
     return {**found, "options": trained.as_dict()}
 
@@ -138,7 +145,7 @@ def _lines(found: dict[str, Any]) -> list[str]:
             texts = {name: _joined(value) if isinstance(value, list) else _text(value) for name, value in entry.items()}
             lines += [f"{key} {name}\t{text}" for name, text in texts.items()]
         else:
-            lines.append(f"{key}\t{_joined(entry) if isinstance(entry, list) else entry}")
+            lines.append(f"{key}\t{_joined(entry) if isinstance(entry, list) else _text(entry)}")
     return lines
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.cli.groups import CheckedCommand, FiniteRange, refuse_given
-from hri.cli.messages import report_fault, note
+from hri.cli.messages import note, report_fault
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import default_model, naming_options, options_option, parse_options, warn_of_stored

@@ -34,6 +34,7 @@ from hri.cli.recognizers import (
     pattern_option,
     recognizer_factory,
 )
+from hri.datasets import Dataset
 from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer
 from hri.training import fillers_of
 from hri.training import train as train_recognizer
@@ -151,9 +152,16 @@ def train(
     report = recognizer.held_out if isinstance(recognizer, WordRecognizer) else None
     for line in report.lines() if report is not None else []:
         note(line)
+    if report is not None and _each_has_own_labels(dataset):
+        note("every person alone recorded some label: recordings, not persons, were held out, and strangers fare worse")
     if report is not None and not dataset.persons:
         note("persons are not known: those held out may have been in training, too, and strangers will fare worse")
-    if len(dataset.persons) < 2:
+    if not recognizer.is_calibrated:
+        note(
+            "no rejection: nothing could be held out, so that all input is taken for one of the labels and confidences"
+        )
+        note("say nothing; record every label at least twice, best by two persons or more")
+    elif len(dataset.persons) < 2:
         note("confidences are calibrated best with two persons or more")
     write_json(
         json_path,
@@ -167,5 +175,15 @@ def train(
             "noises": list(noises),
             "options": recognizer.options.as_dict(),
             "held_out": None if report is None else report.to_dict(),
+            "is_calibrated": recognizer.is_calibrated,
         },
     )
+
+
+def _each_has_own_labels(dataset: Dataset) -> bool:
+    """Whether no person can be held out without a label going missing."""
+    by_label: dict[str, set[str | None]] = {}
+    for sample in dataset.samples:
+        by_label.setdefault(sample.label, set()).add(sample.person)
+    alone = {next(iter(persons)) for persons in by_label.values() if len(persons) == 1}
+    return len(dataset.persons) > 1 and alone.issuperset(dataset.persons)

@@ -91,7 +91,12 @@ class Classifier(RowEstimator):
             In the order of `classes_`; of two classes shape (num_rows,), above 0 for ``classes_[1]``.
         """
         values = self._decision_values(X)
-        return values[:, 1] - values[:, 0] if values.shape[1] == 2 else values
+        if values.shape[1] != 2:
+            return values
+        # Beyond all densities both are -inf: neither is likelier.
+        return np.subtract(
+            values[:, 1], values[:, 0], out=np.zeros_like(values[:, 0]), where=values[:, 1] != values[:, 0]
+        )
 
     def _decision_values(self, X: ArrayLike) -> NDArray[np.float32]:
         model = self._fitted
@@ -115,6 +120,8 @@ class _Probabilistic(Classifier):
         """Natural logs of `predict_proba`, without underflow."""
         values = self._decision_values(X).astype(np.float64)
         top = values.max(axis=1, keepdims=True)
+        known = np.isfinite(top)  # else so far from all that every density is 0: all are alike
+        values, top = np.where(known, values, 0.0), np.where(known, top, 0.0)
         return values - top - np.log(np.exp(values - top).sum(axis=1, keepdims=True))
 
     def predict_proba(self, X: ArrayLike) -> NDArray[np.float64]:

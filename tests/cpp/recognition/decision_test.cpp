@@ -12,6 +12,7 @@
 #include "hri/recognition/gesture/key_frames.hpp"
 #include "hri/recognition/training.hpp"
 #include "models/model_testing.hpp"
+#include "recognition/recording_folds.hpp"
 
 namespace hri {
 namespace {
@@ -230,6 +231,7 @@ TEST(Calibration, DecidesWithAnNBestListThatFallsAndSumsToOne) {
   EXPECT_EQ(d.confidence, d.nbest[0].probability);
   const Calibration untrained = Calibration::fit({}, RejectionRates{});
   EXPECT_EQ(untrained.scale(), 1.0);
+  EXPECT_FALSE(untrained.is_fitted());
   EXPECT_EQ(untrained.decide(scores, -1e20F, {"a", "b", "c"}).status, DecisionStatus::recognised);
   EXPECT_THROW(static_cast<void>(Calibration().decide({}, 0, {})), Error);
   EXPECT_THROW(static_cast<void>(Calibration().decide(scores, 0, {"a", "b", "c", "d"})), Error);
@@ -261,6 +263,21 @@ TEST(Training, FoldsShareNoGroup) {
     }
     EXPECT_EQ(seen, (std::set<int>{0, 1}));
   }
+}
+
+TEST(Training, RecordingsAreDealtOutWhereNoPersonCanBeHeldOut) {
+  // Two words by both, and one by each alone.
+  const std::vector<int> classes{0, 0, 1, 1, 2, 2, 0, 0, 1, 1, 3, 3};
+  const std::vector<std::string> groups{"p", "p", "p", "p", "p", "p", "q", "q", "q", "q", "q", "q"};
+  EXPECT_FALSE(detail::any_fold_is_usable(classes, held_out_folds(classes, groups, 4)));
+  const std::vector<int> dealt = detail::usable_folds(classes, groups, 4);
+  EXPECT_EQ(dealt, held_out_folds(classes, std::vector<std::string>(12, ""), 4));
+  EXPECT_TRUE(detail::any_fold_is_usable(classes, dealt));
+  // One fold that can be held out is enough for persons to stay apart.
+  std::vector<int> shared = classes;
+  shared[10] = shared[11] = 0;
+  EXPECT_EQ(detail::usable_folds(shared, groups, 4), held_out_folds(shared, groups, 4));
+  EXPECT_FALSE(detail::any_fold_is_usable({0, 1}, detail::usable_folds({0, 1}, {"p", "q"}, 4)));
 }
 
 // A hand that moves for 12 frames, is held for 16, and moves again for 12.

@@ -63,7 +63,9 @@ struct AdaptationOptions {
   template <class Self, class Visitor>
   static void visit(Self& o, Visitor&& v) {
     v("shared_frames", o.shared_frames, above(0, 1e12),
-      "imagined frames that hold the common change back");
+      "imagined frames that hold the common change back in each of two passes, of which the second "
+      "starts from the first: of as many real frames, three quarters of the change come through, "
+      "not half");
     v("prior_frames", o.prior_frames, above(0, 1e12),
       "frames a state that weigh as much as the training");
     v("num_iterations", o.num_iterations, within(1, 1000), "EM iterations of the second part");

@@ -54,8 +54,8 @@ class HRI_API Calibration {
   /// up to rates.max_false_reject, as it takes to accept no more than rates.false_accept of
   /// `others`, scores of words outside the vocabulary. A class threshold is the least confidence at
   /// which the class keeps to kMaxFalseAlarmRate, or the largest that keeps to kMaxMissRate where
-  /// both cannot be met, but at least kMinClassThreshold. Falls back to scale 1 and no thresholds
-  /// where `held_out` is empty or never right.
+  /// both cannot be met, but at least kMinClassThreshold. Where `held_out` is empty or never
+  /// right, nothing is fitted: see is_fitted().
   static Calibration fit(const std::vector<HeldOut>& held_out, const RejectionRates& rates,
                          std::vector<float> others = {});
 
@@ -65,6 +65,11 @@ class HRI_API Calibration {
   /// The decision for `scores` (one per label) and `score`.
   [[nodiscard]] Decision decide(const VectorF& scores, float score,
                                 const std::vector<std::string>& labels) const;
+
+  /// Whether decisions on held-out people were there to learn from. Where none were, nothing is
+  /// rejected, and probabilities are the softmax of the scores as they are: near 0 or 1 of
+  /// log-likelihoods, whether right or wrong.
+  [[nodiscard]] bool is_fitted() const { return threshold_ > kNoThreshold; }
 
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] double threshold() const { return threshold_; }
@@ -81,8 +86,10 @@ class HRI_API Calibration {
   static Calibration read(const ModelFile& file);
 
  private:
+  static constexpr double kNoThreshold = -1e30;
+
   double scale_ = 1.0;
-  double threshold_ = -1e30;
+  double threshold_ = kNoThreshold;
   VectorF class_thresholds_;
 };
 

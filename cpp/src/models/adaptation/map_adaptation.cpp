@@ -7,6 +7,7 @@
 
 #include "hri/core/error.hpp"
 #include "models/adaptation/adaptation_statistics.hpp"
+#include "models/least_variance.hpp"
 
 namespace hri {
 namespace {
@@ -24,7 +25,9 @@ MixtureBank adapt(const MarkovChain& chain, const MixtureBank& prior,
   validate(options);
   detail::check_adaptation_data(sequences, prior.dim());
   MixtureBank bank = prior;
-  const VectorD no_floor = VectorD::Constant(prior.dim(), 1e-10);
+  const VectorD widest = prior.variances().colwise().maxCoeff().transpose();
+  const VectorD no_floor = VectorD::Constant(
+      prior.dim(), detail::least_variance(VectorD::Zero(prior.dim()), widest, 1e-10));
   for (int i = 0; i < options.num_iterations; ++i) {
     MixtureAccumulator accumulator(prior.num_states(), prior.num_mixtures(), prior.dim());
     accumulator.add_prior(prior, options.prior_frames);

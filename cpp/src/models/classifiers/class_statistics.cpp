@@ -7,6 +7,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/models/row_checks.hpp"
+#include "models/least_variance.hpp"
 
 namespace hri::detail {
 namespace {
@@ -56,10 +57,12 @@ ClassStatistics class_statistics(ConstMatrixRefF rows, Span<const int> classes, 
   }
   for (int c = 0; c < num_classes; ++c) result.means.row(c) /= result.counts[c];
   result.scatter = scatter_of(rows, classes, result.means);
+  const VectorD mean = rows.cast<double>().colwise().mean().transpose();
   const VectorD spread = (rows.cast<double>().rowwise() - rows.cast<double>().colwise().mean())
                              .colwise()
                              .squaredNorm();
-  result.floor = kFloorShare * spread.mean() / result.counts.sum() + 1e-12;
+  result.floor = kFloorShare * spread.mean() / result.counts.sum() +
+                 least_variance(mean, spread / result.counts.sum(), 1e-12);
   return result;
 }
 

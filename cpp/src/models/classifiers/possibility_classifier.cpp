@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/models/classifiers/possibility_classifier.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace hri {
@@ -21,7 +22,9 @@ Possibilities PossibilityClassifier::classify(Span<const float> row) const {
 
 VectorF PossibilityClassifier::decision_values(Span<const float> row) const {
   const VectorF log_densities = densities_.log_densities(row);
-  return log_densities.array() - log_densities.maxCoeff();
+  const float top = log_densities.maxCoeff();
+  if (log_densities.hasNaN() || !std::isfinite(top)) return VectorF::Zero(log_densities.size());
+  return log_densities.array() - top;
 }
 
 void PossibilityClassifier::write(ModelFile& file, const std::string& prefix) const {

@@ -21,7 +21,19 @@ constexpr double kKernelConstant = 1;  // of the kernel, in place of a bias
 constexpr Eigen::Index kNearest = 3;
 constexpr Eigen::Index kMostNeighbours = 20;  // of any class
 
-VectorF squared_lengths(const MatrixF& rows) { return rows.rowwise().squaredNorm(); }
+// |a|^2 + |b|^2 - 2 ab keeps too few digits in float where rows lie farther from zero than this
+// many times from one another, both squared. Features of hands lie far below.
+constexpr double kFar = 1000;
+
+// Squared lengths of the rows; none where distances need the differences themselves.
+VectorF squared_lengths(const MatrixF& rows) {
+  const MatrixD all = rows.cast<double>();
+  const Eigen::RowVectorXd mean = all.colwise().mean();
+  const double variance =
+      (all.rowwise() - mean).rowwise().squaredNorm().sum() / static_cast<double>(all.rows());
+  if (mean.squaredNorm() > kFar * variance) return {};
+  return rows.rowwise().squaredNorm();
+}
 
 // Mean of the kNearest lowest values; their order changes.
 float mean_of_lowest(std::vector<float>* values) {
@@ -73,13 +85,15 @@ RbfClassifier RbfClassifier::train(ConstMatrixRefF rows, Span<const int> classes
   model.rows_ = rows;
   model.squares_ = squared_lengths(model.rows_);
   model.sharpness_ = options.sharpness;
+  const auto square_of = [&](Eigen::Index r) {
+    return model.squares_.size() > 0 ? model.squares_[r] : 0.0F;
+  };
   Eigen::MatrixXd kernel(count, count);
   for (Eigen::Index r = 0; r < count; ++r) {
     poll(options.should_stop);
     for (Eigen::Index s = 0; s <= r; ++s) {
-      const float product = dot(model.rows_.row(r).data(), model.rows_.row(s).data(), model.dim());
-      const float square = model.squares_[r] + model.squares_[s] - 2 * product;
-      kernel(r, s) = kernel(s, r) = r == s ? 0.0 : static_cast<double>(std::max(square, 0.0F));
+      const float square = model.squared_distance(model.rows_.row(r).data(), square_of(r), s);
+      kernel(r, s) = kernel(s, r) = r == s ? 0.0 : static_cast<double>(square);
     }
   }
   const double mean = kernel.sum() / static_cast<double>(count * count);
@@ -128,14 +142,19 @@ RbfClassifier RbfClassifier::with_class(int index, ConstMatrixRefF rows,
   return model;
 }
 
+float RbfClassifier::squared_distance(const float* row, float square, Eigen::Index r) const {
+  if (squares_.size() == 0)
+    return (Eigen::Map<const Eigen::RowVectorXf>(row, dim()) - rows_.row(r)).squaredNorm();
+  const float product = dot(row, rows_.row(r).data(), dim());
+  return std::max(square + squares_[r] - 2 * product, 0.0F);
+}
+
 VectorF RbfClassifier::squared_distances(Span<const float> row) const {
   validate_row(row, dim());
   const float square = dot(row.data(), row.data(), dim());
   VectorF result(rows_.rows());
-  for (Eigen::Index r = 0; r < rows_.rows(); ++r) {
-    const float product = dot(row.data(), rows_.row(r).data(), dim());
-    result[r] = std::max(square + squares_[r] - 2 * product, 0.0F);
-  }
+  for (Eigen::Index r = 0; r < rows_.rows(); ++r)
+    result[r] = squared_distance(row.data(), square, r);
   return result;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/models/classifiers/softmax_regression.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -14,7 +15,9 @@ namespace hri {
 namespace {
 
 constexpr double kConstantColumn = 1e-6;  // deviation below which a column counts as constant
-constexpr double kTolerance = 1e-6;       // of the value, that an iteration has to gain
+constexpr double kUsualDeviation = 1e-3;
+constexpr double kLeastDeviation = 1e-37;  // the inverse of it is a float
+constexpr double kTolerance = 1e-6;        // of the value, that an iteration has to gain
 
 using Parameters = Eigen::Map<const MatrixD>;  // a row a class: weights, then the bias
 
@@ -111,10 +114,17 @@ SoftmaxRegression SoftmaxRegression::train(ConstMatrixRefF rows, Span<const int>
   const VectorD mean = rows.cast<double>().colwise().sum().transpose() / count;
   result.mean_ = mean.cast<float>();
   result.scale_.resize(dim);
+  VectorD deviations(dim);
   for (Eigen::Index c = 0; c < dim; ++c) {
-    const double deviation =
+    deviations[c] =
         std::sqrt((rows.col(c).cast<double>().array() - mean[c]).square().sum() / count);
-    const bool constant = deviation <= kConstantColumn * (1.0 + std::abs(mean[c]));
+  }
+  // 1, but less where all columns are in so small a unit that none varies by more.
+  const double unit = std::min(1.0, deviations.maxCoeff() / kUsualDeviation);
+  for (Eigen::Index c = 0; c < dim; ++c) {
+    const double deviation = deviations[c];
+    const bool constant =
+        deviation <= std::max(kConstantColumn * (unit + std::abs(mean[c])), kLeastDeviation);
     result.scale_[c] = constant ? 0.0F : static_cast<float>(1.0 / deviation);
   }
   result.weights_ = MatrixF::Zero(num_classes, dim);

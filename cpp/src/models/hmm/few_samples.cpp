@@ -6,6 +6,7 @@
 
 #include "hri/core/error.hpp"
 #include "models/hmm/forward_backward.hpp"
+#include "models/least_variance.hpp"
 #include "models/possibility/possibilistic_rule.hpp"
 
 namespace hri {
@@ -27,7 +28,8 @@ Eigen::RowVectorXd pooled_variance(const std::vector<GaussianMixtureHmm>& known)
     }
     num_states += bank.num_states();
   }
-  return (sum / num_states).cwiseMax(1e-10);
+  sum /= num_states;
+  return sum.cwiseMax(detail::least_variance(VectorD::Zero(sum.size()), sum.transpose(), 1e-10));
 }
 
 // Recordings that weigh as much as the known classes, for the variance of a state and for the

@@ -8,6 +8,7 @@
 
 #include "hri/core/error.hpp"
 #include "models/hmm/mixture_training.hpp"
+#include "models/least_variance.hpp"
 
 namespace hri {
 namespace {
@@ -23,7 +24,8 @@ MixtureBank with_wide_component(const MixtureBank& bank, const GlobalStatistics&
   MatrixD variances(count + 1, bank.dim());
   weights << (1 - weight) * bank.weights(), weight;
   means << bank.means(), all.mean.transpose();
-  variances << bank.variances(), kWideVariance * all.variance.cwiseMax(1e-10).transpose();
+  const double least = detail::least_variance(all.mean, all.variance, 1e-10);
+  variances << bank.variances(), kWideVariance * all.variance.cwiseMax(least).transpose();
   return {std::move(weights), std::move(means), std::move(variances)};
 }
 
@@ -39,7 +41,8 @@ GaussianMixture GaussianMixture::train(ConstMatrixRefF rows, const GaussianMixtu
   require(rows.rows() > 0, "training needs at least one row");
   const std::vector<MatrixF> sequence{rows};
   const GlobalStatistics all = global_statistics(sequence);
-  const VectorD floor = (all.variance * options.variance_floor).cwiseMax(1e-10);
+  const VectorD floor = (all.variance * options.variance_floor)
+                            .cwiseMax(detail::least_variance(all.mean, all.variance, 1e-10));
   MixtureBank bank =
       detail::initial_bank(sequence, {std::vector<int>(static_cast<std::size_t>(rows.rows()), 0)},
                            1, options.num_mixtures, floor, options.seed, all);

@@ -10,6 +10,7 @@
 #include "models/hmm/forward_backward.hpp"
 #include "models/hmm/forward_pass.hpp"
 #include "models/hmm/mixture_training.hpp"
+#include "models/least_variance.hpp"
 
 namespace hri {
 namespace {
@@ -34,8 +35,9 @@ std::vector<std::vector<int>> first_states(const std::vector<MatrixF>& sequences
 }
 
 // A variance of zero (a constant feature) still needs a floor.
-VectorD floor_of(const VectorD& global_variance, double share) {
-  return (global_variance * share).cwiseMax(1e-10);
+VectorD floor_of(const GlobalStatistics& global, double share) {
+  return (global.variance * share)
+      .cwiseMax(detail::least_variance(global.mean, global.variance, 1e-10));
 }
 
 // All variances replaced by their mean, so that training begins with one vector.
@@ -82,7 +84,7 @@ GaussianMixtureHmm GaussianMixtureHmm::train(const std::vector<MatrixF>& sequenc
                                              TrainingReport* report) {
   check(options, options.num_mixtures);
   const GlobalStatistics global = global_statistics(sequences);
-  const VectorD floor = floor_of(global.variance, options.variance_floor);
+  const VectorD floor = floor_of(global, options.variance_floor);
   const int n = options.topology.num_states;
   return GaussianMixtureHmm(MarkovChain::initial(options.topology),
                             detail::initial_bank(sequences, first_states(sequences, options), n,
@@ -99,9 +101,8 @@ GaussianMixtureHmm GaussianMixtureHmm::retrain(const std::vector<MatrixF>& seque
     fail(ErrorKind::invalid_argument, "sequences have " + std::to_string(global.variance.size()) +
                                           " columns, the model has " + std::to_string(dim()));
   }
-  const BankEstimation estimation{floor_of(global.variance, options.variance_floor),
-                                  options.weight_floor, options.weight_prior,
-                                  options.tied_variance};
+  const BankEstimation estimation{floor_of(global, options.variance_floor), options.weight_floor,
+                                  options.weight_prior, options.tied_variance};
   const int n = num_states();
   GaussianMixtureHmm model = *this;
   if (options.tied_variance) model = GaussianMixtureHmm(chain_, with_tied_variance(bank_));

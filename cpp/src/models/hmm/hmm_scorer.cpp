@@ -18,7 +18,7 @@
 namespace hri::detail {
 namespace {
 
-constexpr int kSharedIterations = 2;
+constexpr int kSharedIterations = 2;  // the second holds back from what the first found
 constexpr double kGarbageWideWeight = 0.01;
 constexpr Eigen::Index kMostGarbageFrames = 540000;  // an hour and a half of speech
 // The names of fillers in model files since format version 1.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/simd.hpp"
+#include "hri/core/error.hpp"
 #include "hri/models/hmm/mixture_bank.hpp"
 #include "models/hmm/dense_kernels.hpp"
 #include "models/hmm/mixture_training.hpp"
@@ -51,11 +52,17 @@ MixtureAccumulator::MixtureAccumulator(int num_states, int num_mixtures, int dim
       totals_(static_cast<std::ptrdiff_t>(num_states) * num_mixtures, 2 * dim + 1, 0) {}
 
 void MixtureAccumulator::add(ConstMatrixRefF frames, const MatrixD& gamma, const MatrixD& shares) {
+  const Eigen::Index num_rows = totals_.num_rows();
+  require(gamma.rows() == frames.rows() && gamma.cols() * num_mixtures_ == num_rows,
+          "gamma must have shape (num_frames, num_states)");
+  require(num_mixtures_ == 1 || (shares.rows() == frames.rows() && shares.cols() == num_rows),
+          "shares must have shape (num_frames, num_states * num_mixtures)");
   add(frames, {gamma.data(), gamma.cols(), shares.data(), shares.cols()});
 }
 
 // A weight of 0 adds nothing, to the bit, so that products of whole blocks may be summed.
 void MixtureAccumulator::add(ConstMatrixRefF frames, const detail::Alignment& alignment) {
+  detail::require_width(frames, dim_);
   const Eigen::Index num_rows = totals_.num_rows();
   const std::ptrdiff_t width = detail::padded(num_rows);
   thread_local detail::PaddedMatrix moments;

@@ -12,6 +12,7 @@
 #include "hri/models/row_checks.hpp"
 #include "models/hmm/dense_kernels.hpp"
 #include "models/hmm/mixture_kernels.hpp"
+#include "models/hmm/mixture_training.hpp"
 
 namespace hri {
 namespace {
@@ -139,11 +140,15 @@ MixtureBank::MixtureBank(MatrixD weights, MatrixD means, MatrixD variances)
   lay_out<float>(means_, variances_, &columns_f_);
 }
 
-void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixRefF out) const {
-  if (frames.cols() != dim()) {
+void detail::require_width(ConstMatrixRefF frames, Eigen::Index dim) {
+  if (frames.cols() != dim) {
     fail(ErrorKind::invalid_argument, "frames have " + std::to_string(frames.cols()) +
-                                          " columns, the model has " + std::to_string(dim()));
+                                          " columns, the model has " + std::to_string(dim));
   }
+}
+
+void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixRefF out) const {
+  detail::require_width(frames, dim());
   validate_finite(frames, "frames");
   require(out.rows() == frames.rows() && out.cols() == num_states(),
           "out must have shape (num_frames, num_states)");
@@ -165,6 +170,7 @@ void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixRefF out) const {
 }
 
 void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixD* out, MatrixD* shares) const {
+  detail::require_width(frames, dim());
   out->resize(frames.rows(), num_states());
   if (shares != nullptr) shares->setOnes(frames.rows(), means_.rows());
   validate_finite(frames, "frames");
@@ -173,6 +179,7 @@ void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixD* out, MatrixD* s
 }
 
 void MixtureBank::log_densities(ConstMatrixRefF frames, double* out) const {
+  detail::require_width(frames, dim());
   validate_finite(frames, "frames");
   detail::log_densities_of_finite(*this, frames, out, num_states(), nullptr, 0);
 }

@@ -23,6 +23,9 @@ struct Alignment {
   std::ptrdiff_t share_stride = 0;
 };
 
+/// Throws InvalidArgument for frames that are not `dim` wide.
+void require_width(ConstMatrixRefF frames, Eigen::Index dim);
+
 /// The centre that is nearest to a row: what minCoeff() finds among squaredNorm()s of Eigen,
 /// searched faster. Not for several threads at once.
 class NearestCentre {

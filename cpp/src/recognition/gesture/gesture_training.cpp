@@ -10,6 +10,7 @@
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 #include "recognition/gesture/gesture_scorer.hpp"
 #include "recognition/gesture/gesture_verifier.hpp"
+#include "recognition/recording_folds.hpp"
 
 namespace hri {
 namespace {
@@ -169,7 +170,7 @@ GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& sam
     classes.push_back(label_index(result.labels_, samples[i].label));
     groups.push_back(samples[i].group);
   }
-  const std::vector<int> folds = held_out_folds(classes, groups, kMaxFolds);
+  const std::vector<int> folds = detail::usable_folds(classes, groups, kMaxFolds);
   const auto all = by_class(samples, classes, folds, result.labels_.size(), -1);
   for (std::size_t c = 0; c < all.size(); ++c) {
     if (all[c].empty()) {

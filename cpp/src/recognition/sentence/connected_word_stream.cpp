@@ -12,6 +12,11 @@ namespace {
 
 constexpr double kShortestMs = 100;  // of an utterance that is searched before its end
 
+void drop_first(std::size_t count, std::vector<TranscribedWord>* words) {
+  const auto used = static_cast<std::ptrdiff_t>(std::min(count, words->size()));
+  words->erase(words->begin(), words->begin() + used);
+}
+
 std::size_t samples_of(double ms, int rate_hz) {
   return static_cast<std::size_t>(ms * rate_hz / 1000);
 }
@@ -138,16 +143,39 @@ bool ConnectedWordStream::place(std::size_t first, ConnectedWordResult* result) 
   shift(&transcript.words);
   for (TranscriptAlternative& alternative : transcript.alternatives) shift(&alternative.words);
   if (!wake_word_.empty()) {
-    std::vector<TranscribedWord>& words = transcript.words;
-    const auto wake = std::find_if(words.begin(), words.end(), [this](const TranscribedWord& word) {
-      return !word.unknown && word.label == wake_word_;
-    });
-    if (wake == words.end()) return false;
-    const auto num_dropped = static_cast<int>(wake - words.begin()) + 1;
-    words.erase(words.begin(), words.begin() + num_dropped);
-    result->num_stable = std::max(0, result->num_stable - num_dropped);
+    const std::size_t num_dropped = num_to_wake_word(transcript.words);
+    drop_first(num_dropped, &transcript.words);
+    result->num_stable = std::max(0, result->num_stable - static_cast<int>(num_dropped));
+    keep_behind_wake_word(num_dropped, &transcript.alternatives);
   }
   return !transcript.words.empty();
+}
+
+std::size_t ConnectedWordStream::num_to_wake_word(const std::vector<TranscribedWord>& words) const {
+  const auto wake = std::find_if(words.begin(), words.end(), [this](const TranscribedWord& word) {
+    return !word.unknown && word.label == wake_word_;
+  });
+  return static_cast<std::size_t>(wake - words.begin()) + (wake == words.end() ? 0 : 1);
+}
+
+void ConnectedWordStream::keep_behind_wake_word(
+    std::size_t num_dropped_of_best, std::vector<TranscriptAlternative>* alternatives) const {
+  const auto same_word = [](const TranscribedWord& a, const TranscribedWord& b) {
+    return a.label == b.label;
+  };
+  std::vector<TranscriptAlternative> kept;
+  for (TranscriptAlternative& alternative : *alternatives) {
+    // The best is what was understood, cut where that is: it knows which words are unsure.
+    const bool is_best = &alternative == &alternatives->front();
+    std::vector<TranscribedWord>& words = alternative.words;
+    drop_first(is_best ? num_dropped_of_best : num_to_wake_word(words), &words);
+    const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const auto& other) {
+      return std::equal(words.begin(), words.end(), other.words.begin(), other.words.end(),
+                        same_word);
+    });
+    if (!words.empty() && is_new) kept.push_back(std::move(alternative));
+  }
+  *alternatives = std::move(kept);
 }
 
 // Before an utterance its context is needed, and the sounds that are not yet known to be one.

@@ -13,6 +13,7 @@
 #include "hri/recognition/sentence/connected_word_recognizer.hpp"
 #include "hri/signal/activity.hpp"
 #include "hri/signal/resample.hpp"
+#include "recognition/recording_folds.hpp"
 #include "recognition/sentence/held_out_choices.hpp"
 #include "recognition/sentence/sentence_training.hpp"
 #include "recognition/sentence/training_strings.hpp"
@@ -177,7 +178,7 @@ class ConnectedWordTrainer {
       classes.push_back(word.label);
       groups.push_back(word.group);
     }
-    const std::vector<int> folds = held_out_folds(classes, groups, kMostFolds);
+    const std::vector<int> folds = detail::usable_folds(classes, groups, kMostFolds);
     for (std::size_t i = 0; i < words_.size(); ++i) words_[i].fold = folds[i];
     return *std::max_element(folds.begin(), folds.end()) + 1;
   }

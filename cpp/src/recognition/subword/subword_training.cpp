@@ -8,6 +8,7 @@
 #include "core/parallel_for.hpp"
 #include "hri/core/error.hpp"
 #include "hri/recognition/subword/subword_recognizer.hpp"
+#include "recognition/recording_folds.hpp"
 #include "recognition/sentence/sentence_front_end.hpp"
 #include "recognition/subword/bonus_choice.hpp"
 #include "recognition/subword/unit_training.hpp"
@@ -118,6 +119,9 @@ class SubwordTrainer {
       add_held_out(fold, samples, &held_out);
       advance(done + 1);
     }
+    // Every fold of speakers took the last recordings of some unit with it.
+    const int num_dealt = held_out.empty() ? deal_folds(options_.num_folds) : 0;
+    for (int fold = 0; fold < num_dealt; ++fold) add_held_out(fold, samples, &held_out);
     RejectionRates rates;
     rates.false_reject = rates.max_false_reject = options_.false_reject_rate;
     SubwordRecognizer result(options_, lexicon_,
@@ -157,7 +161,19 @@ class SubwordTrainer {
       classes.push_back(words_[i].label);
       groups.push_back(samples[i].group);
     }
-    const std::vector<int> folds = held_out_folds(classes, groups, most);
+    return set_folds(held_out_folds(classes, groups, most));
+  }
+
+  // The same by recordings, whoever said them.
+  int deal_folds(int most) {
+    if (most < 2) return 0;
+    std::vector<int> classes;
+    classes.reserve(words_.size());
+    for (const SubwordSample& word : words_) classes.push_back(word.label);
+    return set_folds(detail::dealt_folds(classes, most));
+  }
+
+  int set_folds(const std::vector<int>& folds) {
     int count = 0;
     for (std::size_t i = 0; i < folds.size(); ++i) {
       words_[i].fold = folds[i];

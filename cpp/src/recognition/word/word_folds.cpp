@@ -5,6 +5,7 @@
 #include <map>
 
 #include "hri/recognition/training.hpp"
+#include "recognition/recording_folds.hpp"
 
 namespace hri::detail {
 
@@ -22,10 +23,18 @@ std::vector<int> word_folds(const std::vector<WordOrigin>& words, int max_folds)
     labels.push_back(word.label);
     groups.push_back(word.group);
   }
-  const std::vector<int> of_recordings = held_out_folds(labels, groups, max_folds);
-  std::vector<int> folds;
-  folds.reserve(words.size());
-  for (const std::size_t number : recording_of) folds.push_back(of_recordings[number]);
+  // Asked of the words, not of their recordings: one of these may have several labels.
+  std::vector<int> of_words;
+  of_words.reserve(words.size());
+  for (const WordOrigin& word : words) of_words.push_back(word.label);
+  const auto of_each = [&](const std::vector<int>& of_recordings) {
+    std::vector<int> folds;
+    folds.reserve(words.size());
+    for (const std::size_t number : recording_of) folds.push_back(of_recordings[number]);
+    return folds;
+  };
+  std::vector<int> folds = of_each(held_out_folds(labels, groups, max_folds));
+  if (!any_fold_is_usable(of_words, folds)) folds = of_each(dealt_folds(labels, max_folds));
   return folds;
 }
 

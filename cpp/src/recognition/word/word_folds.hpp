@@ -16,7 +16,9 @@ struct WordOrigin {
   std::string recording;  ///< of several words made of one recording the same name; "" for its own
 };
 
-/// As `held_out_folds` of the recordings; what was made of one stands in its fold.
+/// As `held_out_folds` of the recordings; what was made of one stands in its fold. Where no fold
+/// can be held out without a label going missing, the recordings of each label are dealt out in
+/// turn.
 std::vector<int> word_folds(const std::vector<WordOrigin>& words, int max_folds);
 
 }  // namespace hri::detail

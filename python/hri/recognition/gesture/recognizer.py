@@ -155,6 +155,11 @@ class GestureRecognizer(Recognizer):
         return self._trained.options.model
 
     @property
+    def is_calibrated(self) -> bool:
+        """Whether training could hold anything out. If not, nothing is rejected, and confidences say nothing."""
+        return bool(self._trained.is_calibrated)
+
+    @property
     def is_dynamic(self) -> bool:
         """Whether it was trained on dynamic gestures, scored whole; frames of still signs vote, each by itself."""
         return bool(self._trained.is_dynamic)

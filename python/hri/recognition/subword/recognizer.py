@@ -203,6 +203,11 @@ class SubwordRecognizer(Recognizer):
         """Score from which a word is recognised."""
         return float(self._trained.threshold)
 
+    @property
+    def is_calibrated(self) -> bool:
+        """Whether training could hold anything out. If not, nothing is rejected, and confidences say nothing."""
+        return bool(self._trained.is_calibrated)
+
     def recognise(self, audio: AudioInput, sample_rate_hz: int | None = None) -> Decision:
         """Recognise one word.
 

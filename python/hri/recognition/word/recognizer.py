@@ -64,7 +64,10 @@ class WordRecognizer(Recognizer):
         ``Decision.score`` from which a word is recognised: what training found to reject the share
         ``false_reject_rate`` of right words.
     held_out : HeldOutReport or None
-        What training saw on people held out.
+        What training saw on people held out; None where nothing could be (see `is_calibrated`).
+    is_calibrated : bool
+        Whether training had recordings to hold out, of two persons, or two of a word. If not, nothing is rejected:
+        every word of another vocabulary is recognised, and confidences are near 1 whether right or wrong.
 
     Examples
     --------
@@ -311,6 +314,11 @@ class WordRecognizer(Recognizer):
     def threshold(self) -> float:
         """Score from which a word is recognised."""
         return float(self._trained.threshold)
+
+    @property
+    def is_calibrated(self) -> bool:
+        """Whether training could hold anything out. If not, nothing is rejected, and confidences say nothing."""
+        return bool(self._trained.is_calibrated)
 
     @property
     def held_out(self) -> HeldOutReport | None:

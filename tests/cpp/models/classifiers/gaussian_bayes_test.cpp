@@ -67,5 +67,22 @@ TEST(GaussianBayes, RefusesFilesWithoutACovariance) {
   EXPECT_PRED_FORMAT2(::testing::IsSubstring, "covariances", message);
 }
 
+TEST(GaussianBayes, DoesNotDependOnTheUnitOfItsFeatures) {
+  const LabelledRows train = blobs(3, 30, 4.0, 1);
+  const LabelledRows test = blobs(3, 30, 4.0, 2);
+  const GaussianBayes plain = GaussianBayes::train(train.rows, train.classes, 3, {});
+  for (const float unit : {1e-5F, 1e-7F, 1e-9F}) {
+    const GaussianBayes model = GaussianBayes::train(train.rows * unit, train.classes, 3, {});
+    const MatrixF found = model.decision_values(ConstMatrixRefF(test.rows * unit));
+    const MatrixF expected = plain.decision_values(ConstMatrixRefF(test.rows));
+    for (Eigen::Index r = 0; r < found.rows(); ++r) {
+      const VectorF row = (found.row(r).array() - found(r, 0)).transpose();
+      const VectorF wanted = (expected.row(r).array() - expected(r, 0)).transpose();
+      EXPECT_LT((row - wanted).cwiseAbs().maxCoeff(), 0.05F * (1 + wanted.cwiseAbs().maxCoeff()))
+          << unit;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hri

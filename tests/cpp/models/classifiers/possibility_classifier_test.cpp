@@ -44,5 +44,15 @@ TEST(PossibilityClassifier, IgnoresHowOftenAClassWasTrained) {
   EXPECT_NEAR(model.decision_values(std::vector<float>{2.0F}).minCoeff(), 0.0, 1e-6);
 }
 
+TEST(PossibilityClassifier, KnowsNothingOfARowBeyondAllDensities) {
+  const LabelledRows data = blobs(3, 20, 5.0, 1);
+  const PossibilityClassifier model = PossibilityClassifier::train(data.rows, data.classes, 3, {});
+  for (const float value : {1e20F, -3e38F}) {
+    const std::vector<float> row(3, value);
+    EXPECT_EQ(model.decision_values(row), VectorF::Zero(3)) << value;
+  }
+  EXPECT_EQ(model.classify(std::vector<float>(3, 1e20F)).possibility, VectorF::Ones(3));
+}
+
 }  // namespace
 }  // namespace hri

@@ -132,5 +132,29 @@ TEST(RbfClassifier, StopsWhenAskedAndRefusesOptionsOutOfRange) {
   }
 }
 
+TEST(RbfClassifier, IsAsGoodFarFromZero) {
+  const LabelledRows train = blobs(3, 30, 4.0, 1, 8);
+  const LabelledRows test = blobs(3, 30, 4.0, 2, 8);
+  const auto share_right = [&](float offset) {
+    const MatrixF moved = train.rows.array() + offset;
+    const RbfClassifier made = RbfClassifier::train(moved, train.classes, 3, {});
+    ModelFile file;
+    made.write(file, "x.");
+    const RbfClassifier model = RbfClassifier::read(file, "x.");
+    int right = 0;
+    for (Eigen::Index r = 0; r < test.rows.rows(); ++r) {
+      const MatrixF row = test.rows.row(r).array() + offset;
+      const Span<const float> span(row.data(), static_cast<std::size_t>(row.size()));
+      EXPECT_EQ(model.decision_values(span), made.decision_values(span));
+      if (argmax(model.decision_values(span)) == test.classes[static_cast<std::size_t>(r)]) ++right;
+    }
+    return static_cast<double>(right) / static_cast<double>(test.rows.rows());
+  };
+  const double near = share_right(0);
+  EXPECT_GT(near, 0.9);
+  for (const float offset : {100.0F, 1000.0F, 10000.0F})
+    EXPECT_NEAR(share_right(offset), near, 0.03);
+}
+
 }  // namespace
 }  // namespace hri

@@ -173,5 +173,16 @@ TEST(SoftmaxRegression, RefusesBadInput) {
                Interrupted);
 }
 
+TEST(SoftmaxRegression, DoesNotDependOnTheUnitOfItsFeatures) {
+  const Points train = clouds(3, 1);
+  Points test = clouds(3, 2);
+  const double usual =
+      share_right(SoftmaxRegression::train(train.rows, train.classes, 3, {}, {}), test);
+  EXPECT_GT(usual, 0.9);
+  test.rows *= 1e-7F;
+  const auto model = SoftmaxRegression::train(train.rows * 1e-7F, train.classes, 3, {}, {});
+  EXPECT_NEAR(share_right(model, test), usual, 0.02);
+}
+
 }  // namespace
 }  // namespace hri

@@ -227,5 +227,28 @@ TEST(GaussianMixtureHmm, RefusesFilesByTheFieldThatIsWrong) {
                       refused("m.weights", MatrixD(MatrixD::Ones(3, 2))));
 }
 
+TEST(GaussianMixtureHmm, DoesNotDependOnTheUnitOfItsFeatures) {
+  std::vector<MatrixF> sequences;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    sequences.push_back(noise(30, 2, seed));
+    sequences.back().topRows(15).array() += 4;
+  }
+  GaussianMixtureHmmOptions options;
+  options.topology.num_states = 2;
+  const GaussianMixtureHmm usual = GaussianMixtureHmm::train(sequences, options);
+  const double unit = 1e-6;
+  std::vector<MatrixF> small;
+  for (const MatrixF& s : sequences) small.push_back(s * static_cast<float>(unit));
+  const MixtureBank bank = GaussianMixtureHmm::train(small, options).bank();
+  const MatrixD ratio = bank.variances().array() / (usual.bank().variances().array() * unit * unit);
+  EXPECT_NEAR(ratio.minCoeff(), 1, 1e-3);
+  EXPECT_NEAR(ratio.maxCoeff(), 1, 1e-3);
+  // A constant feature keeps its floor beside one that varies, and where none does.
+  for (MatrixF& s : sequences) s.col(1).setConstant(0.1F);
+  EXPECT_EQ(GaussianMixtureHmm::train(sequences, options).bank().variances().minCoeff(), 1e-10);
+  for (MatrixF& s : sequences) s.setConstant(0.1F);
+  EXPECT_EQ(GaussianMixtureHmm::train(sequences, options).bank().variances().maxCoeff(), 1e-10);
+}
+
 }  // namespace
 }  // namespace hri

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hri/core/error.hpp"
 #include "models/hmm/dense_kernels.hpp"
 #include "models/hmm/mixture_training.hpp"
 #include "models/model_testing.hpp"
@@ -92,6 +93,25 @@ TEST(NearestCentre, AgreesOnTies) {
   NearestCentre search(centres);
   const Eigen::RowVectorXd far = Eigen::RowVectorXd::Constant(7, 1e200);  // infinitely far from all
   EXPECT_EQ(search.find(far.data()), nearest_by_eigen(centres, far));
+}
+
+TEST(MixtureBank, RefusesFramesOfAnotherWidth) {
+  const MixtureBank bank(MatrixD::Ones(1, 1), MatrixD::Zero(1, 8), MatrixD::Ones(1, 8));
+  MixtureAccumulator accumulator(1, 1, 8);
+  for (const int width : {3, 7, 9, 12}) {
+    const MatrixF frames = MatrixF::Zero(2, width);
+    MatrixF floats(2, 1);
+    MatrixD doubles(2, 1);
+    EXPECT_THROW(bank.log_densities(frames, floats), InvalidArgument) << width;
+    EXPECT_THROW(bank.log_densities(frames, &doubles, nullptr), InvalidArgument) << width;
+    EXPECT_THROW(bank.log_densities(frames, doubles.data()), InvalidArgument) << width;
+    EXPECT_THROW(accumulator.add(frames, MatrixD::Ones(2, 1), MatrixD()), InvalidArgument) << width;
+  }
+  const MatrixF frames = MatrixF::Zero(2, 8);
+  EXPECT_THROW(accumulator.add(frames, MatrixD::Ones(1, 1), MatrixD()), InvalidArgument);
+  EXPECT_THROW(accumulator.add(frames, MatrixD::Ones(2, 2), MatrixD()), InvalidArgument);
+  MixtureAccumulator mixed(1, 2, 8);
+  EXPECT_THROW(mixed.add(frames, MatrixD::Ones(2, 1), MatrixD::Ones(2, 1)), InvalidArgument);
 }
 
 // One component and frame after the other.

@@ -386,6 +386,14 @@ TEST(GestureRecognizer, RemembersItsDescriptors) {
   EXPECT_THROW(GestureRecognizer::from_model_file(file), FormatError);
 }
 
+TEST(GestureRecognizer, HoldsRecordingsOutWhereEachSignerHasASignAlone) {
+  std::vector<GestureSample> samples = stills();
+  for (GestureSample& sample : samples) sample.group = sample.label;
+  EXPECT_TRUE(GestureRecognizer::train(samples, {}).calibration().is_fitted());
+  const std::vector<GestureSample> one_each{samples[0], samples[4], samples[8]};
+  EXPECT_FALSE(GestureRecognizer::train(one_each, {}).calibration().is_fitted());
+}
+
 TEST(GestureRecognizer, RefusesBadSets) {
   std::vector<GestureSample> samples = stills();
   samples[3].features(0, 5) = std::nanf("");

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "hri/core/error.hpp"
 #include "recognition/tone_words.hpp"
 
@@ -141,6 +143,28 @@ TEST(ConnectedWordStream, SaysWhatItHasSoFarAndKeepsWhatIsStable) {
   }
   EXPECT_GE(num_partial, 4);
   EXPECT_EQ(stable, kFirst);
+}
+
+TEST(ConnectedWordStream, AlternativesBeginBehindTheWakeWordToo) {
+  ConnectedWordStreamOptions options;
+  options.num_alternatives = 20;
+  ConnectedWordStream stream(trained_by_digits(), kRateHz, options, "fall");
+  const std::vector<ConnectedWordResult> results =
+      results_of(&stream, utterance({"rise", "fall", "rise", "rise"}, 1), 1600);
+  ASSERT_FALSE(results.empty());
+  const Transcript& found = results.back().transcript;
+  EXPECT_EQ(labels_in(found), (std::vector<std::string>{"rise", "rise"}));
+  std::vector<std::vector<std::string>> all;
+  for (const TranscriptAlternative& alternative : found.alternatives) {
+    Transcript other;
+    other.words = alternative.words;
+    all.push_back(labels_in(other));
+    EXPECT_FALSE(all.back().empty());
+  }
+  ASSERT_GE(all.size(), 2U);
+  EXPECT_EQ(all.front(), labels_in(found));
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(std::adjacent_find(all.begin(), all.end()), all.end());
 }
 
 TEST(ConnectedWordStream, DoesNotDependOnBlocks) {

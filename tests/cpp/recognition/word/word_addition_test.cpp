@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "hri/core/error.hpp"
+#include "hri/core/random.hpp"
+#include "hri/models/sequence_scorer.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
 #include "recognition/tone_words.hpp"
 
@@ -172,6 +174,47 @@ TEST(WordAdditionOf, ModelFilesWithWildCopiesIsRefused) {
       EXPECT_NE(std::string(error.what()).find(option), std::string::npos) << error.what();
     }
   }
+}
+
+// Added classes raise what possibilities are scaled by: the ratio to the garbage model stays.
+TEST(PtbhmmScorer, KeepsTheRatiosOfOtherClassesWhenOneIsAdded) {
+  const auto steps = [](float level, std::uint64_t seed) {
+    Random random(seed);
+    MatrixF frames(24, 2);
+    for (Eigen::Index t = 0; t < frames.rows(); ++t) {
+      frames(t, 0) = static_cast<float>((t < 12 ? level : -level) + 0.7 * random.normal());
+      frames(t, 1) = static_cast<float>(random.normal());
+    }
+    return frames;
+  };
+  SequenceModelOptions options;
+  options.model = SequenceModelKind::ptbhmm;
+  options.num_states = 3;
+  options.num_codewords = 16;
+  ClassSequences sequences(2);
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    sequences[0].push_back(steps(2, seed));
+    sequences[1].push_back(steps(-2, seed + 50));
+  }
+  const auto plain = train_sequence_scorer(sequences, options, {});
+  const MatrixF heard = steps(2, 99);
+  EXPECT_EQ(plain->garbage_score(heard), 0);
+  const auto more = plain->with_class(1, {heard.topRows(3)}, 100, {});
+  ASSERT_LT(more->scores(heard)[0], plain->scores(heard)[0] - 1);
+  const auto ratio = [&](const SequenceScorer& scorer, Eigen::Index c) {
+    return scorer.scores(heard)[c] - scorer.garbage_score(heard);
+  };
+  EXPECT_NEAR(ratio(*more, 0), ratio(*plain, 0), 1e-3);
+  EXPECT_NEAR(ratio(*more, 2), ratio(*plain, 1), 1e-3);
+  ModelFile file;
+  more->write(file, "x.");
+  const auto read = read_sequence_scorer(file, "x.", options, 3, 2);
+  EXPECT_EQ(read->garbage_score(heard), more->garbage_score(heard));
+  const auto less = more->without_class(1);
+  EXPECT_EQ(less->garbage_score(heard), 0);
+  EXPECT_EQ(less->scores(heard), plain->scores(heard));
+  file.set_number("x.ptbhmm.trained_transition", -1);
+  EXPECT_THROW(read_sequence_scorer(file, "x.", options, 3, 2), FormatError);
 }
 
 }  // namespace

@@ -45,5 +45,22 @@ TEST(WordFolds, KeepSpeakersApart) {
   EXPECT_TRUE(word_folds({}, kNumFolds).empty());
 }
 
+TEST(WordFolds, AreOfRecordingsWhereEachSpeakerAloneSaidSomeWord) {
+  std::vector<WordOrigin> words;  // word 0 by both, word 1 by one, word 2 by the other; two copies
+  for (int i = 0; i < 16; ++i) {
+    const bool asha = i % 2 == 0;
+    words.push_back(
+        {i % 4 < 2 ? 0 : (asha ? 1 : 2), asha ? "asha" : "ravi", std::to_string(i % 8)});
+  }
+  const std::vector<int> folds = word_folds(words, kNumFolds);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(folds[i], folds[i + 8]) << i;
+  EXPECT_EQ(std::vector<int>(folds.begin(), folds.begin() + 8),
+            (std::vector<int>{0, 1, 0, 0, 2, 3, 1, 1}));
+  // Recordings of which each has every word are held out by their speakers.
+  const std::vector<WordOrigin> mixed{
+      {0, "asha", "a"}, {1, "asha", "a"}, {1, "ravi", "b"}, {0, "ravi", "b"}};
+  EXPECT_EQ(word_folds(mixed, kNumFolds), (std::vector<int>{0, 0, 1, 1}));
+}
+
 }  // namespace
 }  // namespace hri::detail

@@ -94,6 +94,37 @@ TEST(WordRecognizer, ReportsEveryStepOfTraining) {
   }
 }
 
+TEST(WordRecognizer, HoldsRecordingsOutWhereEachSpeakerAloneSaidAWord) {
+  std::vector<std::vector<float>> audio;
+  std::vector<std::pair<std::string, std::string>> names;
+  std::uint64_t seed = 0;
+  const auto say = [&](const char* word, const char* person, double base_hz, double slope) {
+    for (int take = 0; take < 3; ++take) {
+      audio.push_back(tone(base_hz, slope, seed++));
+      names.emplace_back(word, person);
+    }
+  };
+  for (const char* person : {"asha", "ravi"}) {
+    say("rise", person, 500, 800);
+    say("fall", person, 500, -350);
+  }
+  say("flat", "asha", 900, 0);
+  say("high", "ravi", 1500, 0);
+  std::vector<WordSample> samples;
+  for (std::size_t i = 0; i < audio.size(); ++i)
+    samples.push_back({audio[i], kRateHz, names[i].first, names[i].second});
+  const WordRecognizer recognizer = WordRecognizer::train(samples, {});
+  EXPECT_TRUE(recognizer.calibration().is_fitted());
+  EXPECT_EQ(recognizer.held_out().num_samples(), 18);
+  // One recording of a word leaves nothing to hold out.
+  const WordRecognizer of_one =
+      WordRecognizer::train({samples[0], samples[3], samples[12], samples[15]}, {});
+  EXPECT_FALSE(of_one.calibration().is_fitted());
+  EXPECT_TRUE(of_one.held_out().empty());
+  const ModelFile file = ModelFile::parse(of_one.to_model_file().serialise(), "x");
+  EXPECT_FALSE(WordRecognizer::from_model_file(file).calibration().is_fitted());
+}
+
 TEST(WordRecognizer, ReportsNoInputForSilence) {
   const Clips all = tone_clips();
   const WordRecognizer recognizer = WordRecognizer::train(all.samples, {});

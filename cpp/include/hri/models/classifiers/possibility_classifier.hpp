@@ -26,7 +26,8 @@ class HRI_API PossibilityClassifier {
   /// possibility of another class. A row whose best class has little necessity is better rejected.
   [[nodiscard]] Possibilities classify(Span<const float> row) const;
 
-  /// log possibility, natural log, 0 for the best class, shape (num_classes,).
+  /// log possibility, natural log, 0 for the best class, shape (num_classes,); 0 for all
+  /// where the row lies so far away that every density is 0.
   [[nodiscard]] VectorF decision_values(Span<const float> row) const;
 
   [[nodiscard]] int num_classes() const { return densities_.num_classes(); }

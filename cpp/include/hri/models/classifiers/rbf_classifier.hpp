@@ -74,10 +74,12 @@ class HRI_API RbfClassifier {
 
  private:
   RbfClassifier() = default;
+  // Of a row of squared length `square` to training row r.
+  [[nodiscard]] float squared_distance(const float* row, float square, Eigen::Index r) const;
   [[nodiscard]] VectorF squared_distances(Span<const float> row) const;
 
   MatrixF rows_;
-  VectorF squares_;    // of the rows' lengths
+  VectorF squares_;    // of the rows' lengths; empty where these are too large to be of use
   VectorF classes_;    // of the rows
   MatrixF weights_;    // (num_classes, num_rows)
   VectorF usual_;      // of every class: median of the mean of three nearest squared distances

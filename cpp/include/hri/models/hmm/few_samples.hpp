@@ -43,8 +43,9 @@ HRI_API GaussianMixtureHmm train_few(const std::vector<GaussianMixtureHmm>& know
                                      const FewSampleOptions& options);
 
 /// The same over symbols: a state that emits a symbol also emits those that the known states emit
-/// along with it, the more the fewer recordings there are. Emissions are at least `emission_floor`,
-/// 0..1 / num_symbols.
+/// along with it, the more the fewer recordings there are. Smaller emissions are raised to
+/// `emission_floor`, 0..1 / num_symbols, before those of a state are scaled to sum to 1: then they
+/// may lie a little below.
 HRI_API DiscreteHmm train_few(const std::vector<DiscreteHmm>& known,
                               const std::vector<SymbolSequence>& sequences, double emission_floor,
                               const FewSampleOptions& options);

@@ -52,7 +52,8 @@ struct HRI_API GaussianMixtureHmmOptions {
       "training stops when the log-likelihood a frame gains less");
     v("variance_floor", o.variance_floor, above(0, 1e6), "share of the global variance");
     v("weight_floor", o.weight_floor, within(0, 1),
-      "smallest mixture weight, at most 1 / num_mixtures");
+      "smaller mixture weights are raised to it, at most 1 / num_mixtures, before all are scaled "
+      "to sum to 1: then they may lie a little below");
     v("tied_variance", o.tied_variance, any_value,
       "one vector of variances for all Gaussians of all states");
     v("transition_prior", o.transition_prior, within(0, 1e12),

@@ -48,7 +48,8 @@ class HRI_API MixtureBank {
   [[nodiscard]] const MatrixD& variances() const { return variances_; }
 
   /// log b_j(x_t) for all frames (rows) and states (columns), natural log, in float; `out` is
-  /// (num_frames, num_states).
+  /// (num_frames, num_states). This and those below throw InvalidArgument for frames that are not
+  /// finite or not dim() wide.
   void log_densities(ConstMatrixRefF frames, MatrixRefF out) const;
 
   /// The same in double, with the share of every component in the density of its state,
@@ -80,9 +81,10 @@ class HRI_API MixtureBank {
 
 /// How a bank is estimated from sums.
 struct BankEstimation {
-  VectorD variance_floor;      ///< (dim)
-  double weight_floor = 0;     ///< weights are rescaled after it
-  double weight_prior = 0;     ///< imagined frames of every component
+  VectorD variance_floor;   ///< (dim)
+  double weight_floor = 0;  ///< smaller weights are raised to it; as all are rescaled to sum to 1
+                            ///< then, the smallest may lie below
+  double weight_prior = 0;  ///< imagined frames of every component
   bool tied_variance = false;  ///< one vector of variances for all components of all states
 };
 
@@ -92,7 +94,7 @@ class HRI_API MixtureAccumulator {
   MixtureAccumulator(int num_states, int num_mixtures, int dim);
 
   /// Adds one sequence: `gamma` (num_frames, num_states) are state posteriors; `shares` as
-  /// MixtureBank::log_densities gave them.
+  /// MixtureBank::log_densities gave them. Throws InvalidArgument for shapes that do not fit.
   void add(ConstMatrixRefF frames, const MatrixD& gamma, const MatrixD& shares);
 
   /// Adds imagined frames, as `prior` would have given them: `frames_per_state` of every state,

@@ -90,7 +90,9 @@ struct HRI_API PossibilisticHmmOptions {
       "all_paths: training stops when the log-likelihood a symbol gains less; best_path: when no "
       "parameter moves more");
     v("emission_floor", o.emission_floor, within(0, 1),
-      "smallest emission share before scaling, at most 1 / num_symbols");
+      "smallest emission share before scaling, at most 1 / num_symbols; best_path: smaller ones "
+      "are raised to it before those of a state are scaled to sum to 1, and may lie a little "
+      "below");
     v("seed", o.seed, any_seed, "of the start of models that are not left-right");
   }
   /// nullptr, or which fields do not go together.

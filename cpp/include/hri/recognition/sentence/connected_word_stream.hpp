@@ -62,8 +62,9 @@ struct ConnectedWordResult {
 /// not matter.
 class HRI_API ConnectedWordStream {
  public:
-  /// With a `wake_word`, which must be a label, only what is said behind it in an utterance counts.
-  /// Throws InvalidArgument for options and a rate out of range, and another wake word.
+  /// With a `wake_word`, which must be a label, only what is said behind it in an utterance counts,
+  /// in alternatives too; there may be fewer of these than were asked for then. Throws
+  /// InvalidArgument for options and a rate out of range, and another wake word.
   ConnectedWordStream(ConnectedWordRecognizer recognizer, int sample_rate_hz,
                       const ConnectedWordStreamOptions& options = {}, std::string wake_word = "");
 
@@ -84,6 +85,11 @@ class HRI_API ConnectedWordStream {
   [[nodiscard]] Span<const float> kept(std::size_t first, std::size_t last) const;
   // Times of the stream; false where nothing is said behind the wake word.
   bool place(std::size_t first, ConnectedWordResult* result) const;
+  // How many words there are up to the wake word and with it: all where it was not said.
+  [[nodiscard]] std::size_t num_to_wake_word(const std::vector<TranscribedWord>& words) const;
+  // Of alternatives that differ before the wake word only, the best remains.
+  void keep_behind_wake_word(std::size_t num_dropped_of_best,
+                             std::vector<TranscriptAlternative>* alternatives) const;
   void drop_old();
 
   ConnectedWordRecognizer recognizer_;

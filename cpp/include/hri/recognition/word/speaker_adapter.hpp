@@ -33,7 +33,9 @@ struct SpeakerAdapterOptions {
       "words a label, on average, from which on each word's model is adapted too; before, only "
       "what all have in common");
     v("shared_frames", o.shared_frames, above(0, 1e12),
-      "imagined frames that hold back what changes all words");
+      "imagined frames that hold back what changes all words in each of two passes, of which the "
+      "second starts from the first: of as many real frames, three quarters of the change come "
+      "through, not half");
     v("prior_frames", o.prior_frames, above(0, 1e12),
       "frames a state that weigh as much as the training");
     v("num_iterations", o.num_iterations, within(1, 1000), "EM iterations of an update");
