@@ -4,7 +4,7 @@
 // Training of WordRecognizer: features of every sample and of its augmented copies, models without
 // each fold of speakers for verifier and calibration, then the models that are kept.
 #include <algorithm>
-#include <functional>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -14,6 +14,7 @@
 #include "recognition/word/filler_memo.hpp"
 #include "recognition/word/held_out_words.hpp"
 #include "recognition/word/non_words.hpp"
+#include "recognition/word/training_steps.hpp"
 #include "recognition/word/weight_choice.hpp"
 #include "recognition/word/word_augmentation.hpp"
 #include "recognition/word/word_folds.hpp"
@@ -81,37 +82,37 @@ class WordTrainer {
   WordRecognizer run(const std::vector<WordSample>& samples, const std::vector<WordSample>& fillers,
                      const std::vector<WordSample>& embedding_fillers,
                      const TrainingProgress& progress) {
-    // Fillers, features, every fold, and the models that are kept, and of each of these the epochs
-    // of its network. Samples without speech may leave fewer folds than all would make.
+    // Recordings; models of every fold and those that are kept, and the epochs of their networks,
+    // each as the many recordings that take about as long. There may be fewer folds in the end.
     const int num_folds_of_all = num_folds_of(samples);
     const bool has_fillers = takes_fillers() && !fillers.empty();
-    const int num_steps = (has_fillers ? 1 : 0) + num_folds_of_all + 2 +
-                          num_folds_of_all * num_epochs(0) + num_epochs(kNoFold);
-    int step = 0;
-    step_done_ = [&] {
-      if (progress) progress(++step, num_steps);
-    };
-    if (progress) progress(step, num_steps);
+    const std::size_t num_fillers =
+        has_fillers ? fillers.size() + (has_vectors() ? embedding_fillers.size() : 0) : 0;
+    const int num_read = static_cast<int>(num_fillers + samples.size());
+    model_steps_ = 1 + static_cast<int>(samples.size()) / (has_vectors() ? 40 : 2);
+    const int num_steps = num_read + model_steps_ * (num_folds_of_all * (1 + num_epochs(0)) + 1 +
+                                                     num_epochs(kNoFold));
+    steps_ = std::make_shared<detail::TrainingSteps>(progress, num_steps);
     if (has_fillers) {
       fillers_ = detail::remembered_fillers(
           fillers, embedding_fillers, options_, augmentation_.front_end().embedding().get(),
           [&] { return train_fillers(fillers, embedding_fillers); });
-      step_done_();
+      steps_->reach(static_cast<int>(num_fillers));
     }
     prepare(samples);
-    step_done_();
+    steps_->reach(num_read);
     const int num_folds = assign_folds();
     const std::vector<int> folds = usable_folds(num_folds);
     std::vector<MultiStreamScorer> scorers;
     for (const int fold : folds) {
       scorers.push_back(train_without(fold));
-      step_done_();
+      steps_->add(model_steps_);
     }
     weigh(folds, &scorers);
     detail::HeldOutWords held_out;
     for (std::size_t i = 0; i < folds.size(); ++i) score_fold(folds[i], scorers[i], &held_out);
     WordRecognizer result = assemble(train_without(kNoFold), std::move(held_out));
-    if (progress) progress(num_steps, num_steps);
+    steps_->reach(num_steps);
     return result;
   }
 
@@ -145,6 +146,7 @@ class WordTrainer {
           augmentation_.read(fillers[i], detail::sample_name(fillers[i], list_name, i));
       // Augmented as the vocabulary is, so that neither of the two fits noise or a voice better.
       if (word.has_speech()) of_samples[i] = augmentation_.copies(word, i);
+      steps_->add(1);
     });
     std::vector<std::vector<StreamFrames>> copies(words.size());
     for (std::size_t i = 0; i < fillers.size(); ++i) {
@@ -175,6 +177,7 @@ class WordTrainer {
     detail::parallel_for(samples.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
       detail::TrainingWord word =
           augmentation_.read(samples[i], detail::sample_name(samples[i], "samples", i));
+      steps_->add(1);
       if (!word.has_speech()) return;
       made[i].label = label_index(labels_, samples[i].label);
       made[i].group = samples[i].group;
@@ -360,7 +363,7 @@ class WordTrainer {
     result.options = options_.network;
     result.options.seed += options_.seed;
     result.options.num_epochs = num_epochs(fold);
-    result.progress = [this](int) { step_done_(); };
+    result.progress = [this](int) { steps_->add(model_steps_); };
     std::vector<const MatrixF*> windows;
     for (const PreparedSample& p : prepared_) {
       if (p.fold == fold) continue;
@@ -417,7 +420,8 @@ class WordTrainer {
   detail::NonWords non_words_;
   std::size_t source_step_;
   StopCheck should_stop_;
-  std::function<void()> step_done_;
+  std::shared_ptr<detail::TrainingSteps> steps_;
+  int model_steps_ = 1;
   std::shared_ptr<const detail::TrainedFillers> fillers_ =
       std::make_shared<const detail::TrainedFillers>();
   double vector_weight_ = 1;
