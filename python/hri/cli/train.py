@@ -157,9 +157,7 @@ def train(
     if report is not None and not dataset.persons:
         note("persons are not known: those held out may have been in training, too, and strangers will fare worse")
     if not recognizer.is_calibrated:
-        note(
-            "no rejection: nothing could be held out, so that all input is taken for one of the labels and confidences"
-        )
+        note("no rejection: nothing could be held out, so that all input gets one of the labels, and confidences")
         note("say nothing; record every label at least twice, best by two persons or more")
     elif len(dataset.persons) < 2:
         note("confidences are calibrated best with two persons or more")

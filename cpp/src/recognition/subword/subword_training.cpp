@@ -164,7 +164,7 @@ class SubwordTrainer {
     return set_folds(held_out_folds(classes, groups, most));
   }
 
-  // The same by recordings, whoever said them.
+  // The same by recordings, of all speakers together.
   int deal_folds(int most) {
     if (most < 2) return 0;
     std::vector<int> classes;
