@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -17,11 +17,15 @@ from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import embedding_option, kept_model, load_embedding
 from hri.core.errors import Error, InvalidArgument
+from hri.core.phrases import phrase
 from hri.core.suggest import did_you_mean
 from hri.fusion import RULES, FusedDecision, FusionOptions, LearnedFusion, fuse
 from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, kind_of_file, write_image
 from hri.recognition import Decision, GestureRecognizer, load
 from hri.recognition.decision import RECOGNISED
+
+if TYPE_CHECKING:
+    from hri.session import LabelMotions
 
 _file = click.Path(exists=True, dir_okay=False)
 
@@ -54,6 +58,13 @@ _file = click.Path(exists=True, dir_okay=False)
     show_default=True,
     help="The robot with physics, or without.",
 )
+@click.option(
+    "--motions",
+    "motions_path",
+    type=_file,
+    metavar="TOML",
+    help='What the robot does for labels that are no gestures: a line each, as in pinch = "small".',
+)
 @click.option("--gui", is_flag=True, help="Show the robot in a window (pybullet).")
 @click.option("--top", type=click.IntRange(1), default=3, show_default=True, help="Alternatives to list of each mode.")
 @json_option
@@ -69,6 +80,7 @@ def recognise(
     fusion_path: str | None,
     robot_path: str | None,
     backend: str,
+    motions_path: str | None,
     gui: bool,
     top: int,
     json_path: str | None,
@@ -85,6 +97,7 @@ def recognise(
       hri recognise seven.wav seven.jpg
       hri recognise --speech seven.wav --gesture seven.jpg --robot robot.webm
       hri recognise --gesture clip.mp4 --gui
+      hri recognise clip.mp4 --motions examples/motions/webcam_gestures.toml --robot robot.webm
       hri recognise --speech seven.wav --gesture seven.jpg --rule product --json -
     """
     for file in files:
@@ -103,11 +116,12 @@ def recognise(
     if fusion_path is not None:
         refuse_given(("rule",), "and --fusion exclude each other")
     if robot_path is None and not gui:
-        refuse_given(("backend",), "goes with --robot or --gui")
+        refuse_given(("backend", "motions_path"), "goes with --robot or --gui")
     if faces is not None and gesture is None:
         raise click.UsageError("--faces is for signs: --gesture FILE")
     if gui and backend != "pybullet":
         raise click.UsageError("--gui needs --backend pybullet")
+    motions = _motions(motions_path)
     learned = None if fusion_path is None else LearnedFusion.load(fusion_path)
     heard = seen = None
     if speech is not None:
@@ -124,7 +138,7 @@ def recognise(
     answer = None
     try:
         if robot_path is not None or gui:
-            answer = _answer(decision, None if robot_path is None else Path(robot_path), backend, gui)
+            answer = _answer(decision, None if robot_path is None else Path(robot_path), backend, gui, motions)
     except (Error, ImportError, OSError) as error:
         answer = {"moved": False, "reason": str(error)}
         raise
@@ -161,8 +175,22 @@ def _describe(decision: Decision, path: str, top: int) -> None:
             note(f"{decision.mode}: 'hri listen {path}' recognises each of them")
 
 
-def _answer(decision: FusedDecision, path: Path | None, backend: str, gui: bool) -> dict[str, Any]:
-    """Let the robot show the label, on film, in a window, or both; what it did."""
+def _motions(path: str | None) -> LabelMotions:
+    """What the robot does for labels beside its gestures; it is held by the torso, so that its legs stay."""
+    from hri.robot import needs_feet
+    from hri.session import LabelMotions, read_motions
+
+    motions = LabelMotions() if path is None else read_motions(path)
+    for label, motion in motions.items():
+        if needs_feet(motion):
+            raise InvalidArgument(f"{path}: {label}: {phrase('torso_held')}")
+    return motions
+
+
+def _answer(
+    decision: FusedDecision, path: Path | None, backend: str, gui: bool, motions: LabelMotions
+) -> dict[str, Any]:
+    """Let the robot answer the label, on film, in a window, or both; what it did."""
     from hri.robot import gesture_trajectory, load_gestures, open_robot, render_video, stopped_by_signals
 
     if decision.status != RECOGNISED:
@@ -171,12 +199,13 @@ def _answer(decision: FusedDecision, path: Path | None, backend: str, gui: bool)
     if decision.label in FusionOptions().stop_labels:
         note("robot: not moved, because the answer is to stop")
         return {"moved": False, "reason": "stop"}
-    if decision.label not in load_gestures():
+    if decision.label not in motions and decision.label not in load_gestures():
         raise InvalidArgument(
             f"the robot has no gesture named {decision.label!r}; "
-            f"{did_you_mean(decision.label, load_gestures())} ('hri robot gestures' lists all)"
+            f"{did_you_mean(decision.label, load_gestures())} ('hri robot gestures' lists all); "
+            "--motions FILE says what it does instead"
         )
-    trajectory = gesture_trajectory(decision.label)
+    trajectory = motions[decision.label] if decision.label in motions else gesture_trajectory(decision.label)
     if gui:
         with open_robot(backend, gui=True) as robot, stopped_by_signals(robot) as signals:
             robot.perform(trajectory)
