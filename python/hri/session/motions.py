@@ -30,7 +30,7 @@ from hri.robot import (
 from hri.session.mover import Motion
 
 
-class LabelMotions(dict[str, Motion]):
+class LabelMotions(dict[str, Trajectory]):
     """Motions of some labels; a label that is not among them has what it has without them."""
 
 
