@@ -39,16 +39,8 @@ void print(const hri::SentenceEvent& event) {
   std::fflush(stdout);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  if (argc != 2) return 2;
-  // Only called by a core that is built with HRI_EXCEPTIONS=OFF.
-  hri::set_failure_handler([](hri::ErrorKind, const char* message) {
-    std::fprintf(stderr, "%s\n", message);
-    std::exit(3);
-  });
-  hri::SentenceStream stream(hri::SentenceRecognizer::load(argv[1]));
+int run(const char* model) {
+  hri::SentenceStream stream(hri::SentenceRecognizer::load(model));
   int number = 0;
   for (std::string line; std::getline(std::cin, line);) {
     ++number;
@@ -62,4 +54,28 @@ int main(int argc, char** argv) {
   }
   print(stream.finish());
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: %s MODEL < TRACKS\n", argv[0]);
+    return 2;
+  }
+  // Called in place of throwing by a core that is built with HRI_EXCEPTIONS=OFF.
+  hri::set_failure_handler([](hri::ErrorKind, const char* message) {
+    std::fprintf(stderr, "%s\n", message);
+    std::exit(3);
+  });
+#ifdef __cpp_exceptions
+  try {
+    return run(argv[1]);
+  } catch (const hri::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 3;
+  }
+#else
+  return run(argv[1]);
+#endif
 }

@@ -9,15 +9,11 @@
 #include <hri/recognition/word/word_recognizer.hpp>
 #include <hri/signal/endpointer.hpp>
 
-int main(int argc, char** argv) {
-  if (argc != 3) return 2;
-  // Only called by a core that is built with HRI_EXCEPTIONS=OFF.
-  hri::set_failure_handler([](hri::ErrorKind, const char* message) {
-    std::fprintf(stderr, "%s\n", message);
-    std::exit(3);
-  });
-  const auto recognizer = hri::WordRecognizer::load(argv[1]);
-  const hri::Wav wav = hri::read_wav(argv[2]);
+namespace {
+
+int run(const char* model, const char* file) {
+  const auto recognizer = hri::WordRecognizer::load(model);
+  const hri::Wav wav = hri::read_wav(file);
   const hri::Span<const float> stream(wav.samples);
   const auto rate_hz = static_cast<std::size_t>(wav.sample_rate_hz);
 
@@ -40,4 +36,29 @@ int main(int argc, char** argv) {
        event = endpointer.finish()) {
     decide(event);
   }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: %s MODEL FILE.wav\n", argv[0]);
+    return 2;
+  }
+  // Called in place of throwing by a core that is built with HRI_EXCEPTIONS=OFF.
+  hri::set_failure_handler([](hri::ErrorKind, const char* message) {
+    std::fprintf(stderr, "%s\n", message);
+    std::exit(3);
+  });
+#ifdef __cpp_exceptions
+  try {
+    return run(argv[1], argv[2]);
+  } catch (const hri::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 3;
+  }
+#else
+  return run(argv[1], argv[2]);
+#endif
 }

@@ -153,6 +153,14 @@ def test_a_label_that_the_robot_does_not_know_still_gives_the_decision(hri, spok
     assert result.code == 3 and result.out.startswith("word1\t")
     assert "no gesture named 'word1'" in result.err and not film.exists()
     assert json.loads(report.read_text())["robot"]["moved"] is False
+    motions = tmp_path / "motions.toml"
+    motions.write_text('word1 = "agree"\n', encoding="utf-8")
+    asked = (*said, "--robot", film, "--backend", "kinematic", "--motions", motions, "--json", report)
+    assert hri(*asked).code == 0 and film.exists() and json.loads(report.read_text())["robot"]["moved"] is True
+    motions.write_text('word1 = "walk.csv"\n', encoding="utf-8")
+    missing = hri(*asked)
+    assert missing.code == 3 and f"{motions}: word1: {tmp_path / 'walk.csv'}: " in missing.err and not missing.out
+    assert "--motions goes with --robot or --gui" in hri(*said, "--motions", motions).err
 
 
 def test_a_window_without_a_display_is_refused(hri, monkeypatch: pytest.MonkeyPatch, spoken: Path):

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import json
 import logging
 import subprocess
 import sys
@@ -75,8 +76,8 @@ def test_files_of_another_kind_are_said_to_be_what_they_are(hri, spoken: Path, s
             "1_low_0.wav is a sound file, and a word",
         ),
         (("recognise", "--speech", sign, "--speech-model", words), 3, "is a picture, and a sound file is needed"),
-        (("recognise", word, spoken / "2_low_0.wav"), 2, "are both words: one at a time"),
-        (("recognise", spoken), 2, "is a folder of sounds: give one of them"),
+        (("recognise", word, word, sign), 2, "several recordings must be of words only, or of signs only"),
+        (("recognise", spoken, "--robot", tmp_path / "film.mp4"), 2, "--robot and --gui show one decision"),
     ):
         result = hri(*arguments)
         assert (result.code, result.out) == (code, ""), arguments
@@ -91,6 +92,27 @@ def test_recordings_need_no_option_where_their_suffix_says_it_all(hri, spoken: P
     word, sign = spoken / "1_low_0.wav", sorted((signed / "1").iterdir())[0]
     short = hri("recognise", word, sign, *models)
     assert short.code == 0 and short.out == hri("recognise", "--speech", word, "--gesture", sign, *models).out
+
+
+def test_several_recordings_of_a_mode_have_a_line_each(hri, spoken: Path, signed: Path, tmp_path: Path):
+    words, signs, report = tmp_path / "words.hri", tmp_path / "signs.hri", tmp_path / "report.json"
+    assert hri("train", "speech", "--data", spoken, "--out", words, "--no-fillers").code == 0
+    assert hri("train", "gesture", "--data", signed, "--out", signs).code == 0
+    one, two, torn = spoken / "1_low_0.wav", spoken / "2_low_0.wav", tmp_path / "torn.wav"
+    torn.write_bytes(b"RIFF")
+    done = hri("recognise", one, torn, two, "--speech-model", words, "--json", report)
+    rows = [line.split("\t") for line in done.out.splitlines()]
+    assert done.code == 3 and [row[:2] for row in rows] == [[str(one), "1"], [str(two), "2"]]
+    assert done.err.endswith("\n") and "1 of 3 recordings not recognised, first" in done.err and str(torn) in done.err
+    found = json.loads(report.read_text())
+    assert [row["file"] for row in found] == [str(one), str(torn), str(two)] and "error" in found[1]
+    alone = json.loads(hri("recognise", one, "--speech-model", words, "--json", "-").out)
+    assert found[0] == {"file": str(one), **{name: value for name, value in alone.items() if name != "robot"}}
+    folder = hri("recognise", spoken, "--speech-model", words)
+    assert folder.code == 0 and len(folder.out.splitlines()) == len(list(spoken.glob("*.wav")))
+    pictures = sorted((signed / "1").iterdir())[:2]
+    shown = hri("recognise", *pictures, "--gesture-model", signs)
+    assert shown.code == 0 and [line.split("\t")[0] for line in shown.out.splitlines()] == list(map(str, pictures))
 
 
 def test_quiet_and_verbose_change_what_is_said_and_not_the_result(hri, spoken: Path, tmp_path: Path):

@@ -72,7 +72,14 @@ def test_readme_runs_on_folders_as_it_names_them(
 
 def test_cpp_of_the_readme_is_the_example_that_is_built() -> None:
     (block,) = blocks(ROOT / "README.md", "cpp")
-    assert (ROOT / "examples" / "consumer" / "recognise_word.cpp").read_text().endswith(block)
+    assert block in (ROOT / "examples" / "consumer" / "recognise_word.cpp").read_text()
+    assert len(block.splitlines()) <= 12
+
+
+@pytest.mark.parametrize("program", sorted((ROOT / "examples").glob("*/*.cpp")), ids=lambda program: program.stem)
+def test_programs_in_cpp_say_how_they_are_used_and_what_failed(program: Path) -> None:
+    text = program.read_text()
+    assert "usage: " in text and "catch (const hri::Error& error)" in text and "return 3;" in text
 
 
 def test_manifests_shown_are_read(tmp_path: Path) -> None:

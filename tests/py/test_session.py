@@ -16,10 +16,10 @@ import pytest
 import hri
 from conftest import RATE_HZ
 from drawn_hands import FPS
-from hri.core.errors import InvalidArgument, IoError, NotFittedError
+from hri.core.errors import FormatError, InvalidArgument, IoError, NotFittedError
 from hri.live import ArraySource, ClipSource, Event, Stalled
-from hri.robot import HOAP2, Robot, open_robot
-from hri.session import EventQueue, Session, SessionOptions
+from hri.robot import HOAP2, NAO, Robot, open_robot, write_short_csv
+from hri.session import EventQueue, LabelMotions, Session, SessionOptions, read_motions
 from hri.session.mover import Cause, Mover
 from hri.studies.endurance import RepeatedPictures, RepeatedSound, memory_bytes
 from session_people import MOTIONS, NOD, TURN, signing, speech, train_signs, train_words
@@ -319,6 +319,50 @@ def test_motions_that_the_robot_cannot_make_are_refused_by_name(words: Any, robo
     assert session.refused["tall"] == "it is in no motion" and session.motions == {}
     events = list(session.run(ArraySource(speech([("flat", 1.0)], 4.0), RATE_HZ)))
     assert [e.fields["text"] for e in of(events, "say")] == ["I have no motion for flat."]
+
+
+def test_motions_of_labels_are_read_and_checked(tmp_path: Path) -> None:
+    table, motion = tmp_path / "motions.toml", tmp_path / "nod.csv"
+    write_short_csv(motion, NOD)
+    table.write_text('pinch = "agree"\nnext = "nod.csv"\n', encoding="utf-8")
+    found = read_motions(table)
+    assert list(found) == ["pinch", "next"] and found["next"].joint_names == NOD.joint_names
+    assert "head_joint_2" in found["pinch"].joint_names
+    assert "HeadPitch" in read_motions(only(table), NAO)["a"].joint_names
+    (tmp_path / "fast.csv").write_text("time_s,head_joint_2\n0,0\n0.01,30\n0.02,0\n", encoding="utf-8")
+    for text, error, message in (
+        ("", FormatError, "names no label"),
+        ("a = 3", FormatError, "a: must be the name of a gesture or of a file"),
+        ("a.b = 'agree'", FormatError, "a: must be the name"),
+        ("a = 'agre'", FormatError, "a: no gesture 'agre'; did you mean 'agree'"),
+        ("a = 'fast.csv'", FormatError, "a: .*fast.csv: .*rad/s"),
+        ("a = 'none.csv'", IoError, "a: .*none.csv"),
+        ("a = ", FormatError, "not a TOML file"),
+    ):
+        table.write_text(text, encoding="utf-8")
+        with pytest.raises(error, match=f"motions.toml: {message}"):
+            read_motions(table)
+
+
+def only(table: Path) -> Path:
+    """A file beside `table` with one label."""
+    other = table.with_stem("one")
+    other.write_text('a = "agree"\n', encoding="utf-8")
+    return other
+
+
+def test_labels_that_a_file_of_motions_does_not_name_keep_their_gestures(words: Any, robot: Robot) -> None:
+    session = Session(words, robot=robot, motions=LabelMotions(flat=NOD))
+    assert list(session.motions) == ["flat"] and session.refused == {"tall": "no gesture has this name"}
+
+
+@pytest.mark.parametrize("table", [HOAP2, NAO], ids=lambda table: table.name)
+def test_the_examples_name_motions_that_the_robots_make(table: Any) -> None:
+    folder = Path(__file__).resolve().parents[2] / "examples" / "motions"
+    assert {path.name: len(read_motions(path, table)) for path in folder.glob("*.toml")} == {
+        "commands.toml": 36,
+        "webcam_gestures.toml": 8,
+    }
 
 
 def test_devices_are_heeded_while_the_caller_is_slow(words: Any, signs: Any, frames: Any, robot: Robot) -> None:

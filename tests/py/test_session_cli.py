@@ -115,6 +115,23 @@ def test_the_robot_moves_and_reports_labels_without_a_motion(hri, scene: Path) -
     assert "I have no motion for flat." in [row.get("text") for row in rows(done.out)]
 
 
+def test_a_file_says_what_the_robot_does_for_a_label(hri, scene: Path, tmp_path: Path) -> None:
+    table = tmp_path / "motions.toml"
+    table.write_text('flat = "agree"\nstop = "up"\nturn = "up"\n', encoding="utf-8")
+    moved = ("--speech-model", scene / "words.hri", "--backend", "kinematic", "--motions", table)
+    done = hri("session", *moved, scene / "said.wav")
+    assert done.code == 0 and "no motion for flat" not in done.err and "no motion for tall: no gesture" in done.err
+    assert f"WARNING: {table}: no word or sign is turn\n" in done.err
+    assert f"WARNING: {table}: stop moves nothing" in done.err
+    assert [(row["label"], row["completed"]) for row in rows(done.out) if row["event"] == "motion_end"] == [
+        ("flat", True)
+    ]
+    table.write_text('flat = "agre"\n', encoding="utf-8")
+    for command in ("session", "serve"):
+        refused = hri(command, *moved, *([scene / "said.wav"] if command == "session" else ["--no-gesture"]))
+        assert refused.code == 3 and f"{table}: flat: no gesture 'agre'; did you mean 'agree'" in refused.err
+
+
 def test_what_is_missing_is_said_in_a_line(hri, scene: Path, tmp_path: Path) -> None:
     said, shown = scene / "said.wav", scene / "shown.avi"
     (tmp_path / "no.hri").write_bytes(b"no model")
@@ -134,6 +151,7 @@ def test_what_is_missing_is_said_in_a_line(hri, scene: Path, tmp_path: Path) -> 
         ((*models(scene), "--no-gesture"), 2, "--gesture-model is of signs, and nothing is seen"),
         (("--no-speech", "--grammar", said), 2, "--grammar is of words, and nothing is heard"),
         ((*words, "--stand", said), 2, "--stand has no effect without a robot"),
+        ((*words, "--motions", said, said), 2, "--motions has no effect without a robot"),
         ((*words, "--gui", said), 2, "--gui has no effect without a robot"),
         ((*words, "--robot", "nao", said), 2, "--robot has no effect without a robot"),
         ((*words, "--fusion", said, "--rule", "product", said), 2, "--rule has no effect: --fusion takes its place"),

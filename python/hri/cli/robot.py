@@ -28,13 +28,13 @@ from hri.robot.motion.gestures import gesture_trajectory, load_gestures
 from hri.robot.motion.joint_trajectory import SUFFIXES as MESSAGE_SUFFIXES
 from hri.robot.motion.joint_trajectory import read_joint_trajectory, write_joint_trajectory
 from hri.robot.motion.plots import plot_trajectory
-from hri.robot.motion.pulse_csv import read_pulse_csv, write_pulse_csv
+from hri.robot.motion.pulse_csv import write_pulse_csv
+from hri.robot.motion.reading import read_motion, require_pulses
 from hri.robot.motion.repair import repair_pulse_csv
 from hri.robot.motion.shaping import slow_to_limits
 from hri.robot.motion.short_csv import (
     check_short_csv,
     is_short_csv,
-    read_short_csv,
     require_safe_short_csv,
     write_short_csv,
 )
@@ -103,7 +103,7 @@ def check(file: Path, repaired: Path | None, table: JointTable) -> None:
         if _is_message(file):
             raise click.UsageError("--repair is of pulses")
         if not is_short_csv(file):
-            _require_pulses(file, table)
+            require_pulses(file, table)
         for change in repair_pulse_csv(file, repaired):
             where = f"row {change.row}, column {change.column} ({change.joint})"
             note(f"{where}: {change.before!r} is now {change.after}: {change.reason}")
@@ -382,13 +382,8 @@ def _findings(file: Path, table: JointTable) -> list[Finding]:
         return check_trajectory(read_joint_trajectory(file), table)
     if is_short_csv(file):
         return check_short_csv(file, table)
-    _require_pulses(file, table)
+    require_pulses(file, table)
     return check_pulse_csv(file)
-
-
-def _require_pulses(file: str | Path, table: JointTable) -> None:
-    if table is not HOAP2:
-        raise InvalidArgument(f"{file}: pulses are HOAP-2's, {table.name} has the short form")
 
 
 def _motion(motion: str, table: JointTable) -> Trajectory:
@@ -396,12 +391,7 @@ def _motion(motion: str, table: JointTable) -> Trajectory:
     if kind:
         raise InvalidArgument(f"{motion} is {kind}, and no motion: a gesture's name, or a file .csv, .json or .mcap")
     if _is_file(motion):
-        if _is_message(motion):
-            return read_joint_trajectory(motion)
-        if is_short_csv(motion):
-            return read_short_csv(motion, table)
-        _require_pulses(motion, table)
-        return read_pulse_csv(motion)
+        return read_motion(motion, table)
     return gesture_trajectory(motion) if table is HOAP2 else nao_gesture_trajectory(motion)  # errors name the gestures
 
 

@@ -86,6 +86,7 @@ def serve(
       hri serve --grammar robot.jsgf --speech-data spoken/ --voice en --no-gesture
       hri serve --no-speech --sentence-begin start --sentence-end end --knowledge sentences.csv
       hri serve --no-speech --gesture-model sentences.hri --knowledge sentences.csv
+      hri serve --motions examples/motions/commands.toml
       hri serve --record class.mcap
       hri serve --robot nao --url tcp://nao.local --camera nao --microphone nao
       hri serve --backend kinematic --port 0 --speech-model words.hri --gesture-model signs.hri
@@ -112,6 +113,7 @@ def serve(
     chosen.warn_of_stop(words, signs)
     learned, stored, faces = chosen.load_fusion(), chosen.load_knowledge(words, signs), chosen.person_finder()
     chosen.require_sentences(signs)
+    motions = chosen.load_motions()
     recordings, spoken = None, None
     if speech_data:
         recordings = [sample for folder in speech_data for sample in load_dataset(folder, "speech", None).samples]
@@ -129,6 +131,7 @@ def serve(
             signs,
             robot,
             options,
+            motions=motions,
             model_ids=ids,
             fusion=learned,
             knowledge=stored,
@@ -143,8 +146,7 @@ def serve(
             record=None if record_path is None else lambda: McapRecorder(next(paths)),
         )
         stack.callback(stage.close)
-        for label, why in stage.session.refused.items():
-            note(f"no motion for {label}: {why}")
+        chosen.note_motions(stage.session, motions)
         server = PageServer(stage, port)
         click.echo(f"Open {server.address}")
         note("in a browser on this computer; the address lets in one visitor. Ctrl-C ends.")

@@ -81,6 +81,7 @@ def session(
       hri session --imitate follow --gui
       hri session --sentence-begin start --sentence-end end --knowledge sentences.csv
       hri session --gesture-model sentences.hri --no-speech --knowledge sentences.csv
+      hri session --motions examples/motions/commands.toml
       hri session --grammar robot.jsgf --stand --gui --no-gesture
       hri session --backend kinematic --json words.wav signs.mp4
       hri session --replay class.mcap
@@ -113,6 +114,7 @@ def session(
     chosen.warn_of_stop(words, signs)
     learned, stored, faces = chosen.load_fusion(), chosen.load_knowledge(words, signs), chosen.person_finder()
     chosen.require_sentences(signs)
+    motions = chosen.load_motions()
     with ExitStack() as stack:
         robot = chosen.open_robot(gui, url)
         if robot is not None:
@@ -125,14 +127,14 @@ def session(
             signs,
             robot,
             options,
+            motions=motions,
             voice=voice,
             model_ids=ids,
             fusion=learned,
             faces=faces,
             knowledge=stored,
         )
-        for label, why in made.refused.items():
-            note(f"no motion for {label}: {why}")
+        chosen.note_motions(made, motions)
         hear: Any = None
         see: Any = None
         if with_speech:

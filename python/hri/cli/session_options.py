@@ -32,7 +32,7 @@ from hri.recognition import (
 )
 from hri.recognition.sentence.commands import MIN_CONFIDENCE
 from hri.robot import BACKENDS, ROBOTS, JointTable, NaoqiRobot, Robot, open_robot
-from hri.session import SessionOptions
+from hri.session import LabelMotions, Session, SessionOptions, read_motions
 from hri.vision.faces import face_finder
 
 if TYPE_CHECKING:
@@ -134,6 +134,13 @@ _OPTIONS = (
         show_default=True,
         help="The robot with physics, without, or no robot.",
     ),
+    click.option(
+        "--motions",
+        "motions_path",
+        type=model_file,
+        metavar="TOML",
+        help='What the robot does for labels that are no gestures: a line each, as in pinch = "small".',
+    ),
     click.option("--stand", is_flag=True, help="The robot stands on its feet and can walk (pybullet)."),
     click.option(
         "--robot",
@@ -174,6 +181,7 @@ class ChosenSession:
     rule: str
     fusion_path: Path | None
     backend: str
+    motions_path: Path | None
     stand: bool
     table: JointTable
     model_ids: dict[str, str] = field(default_factory=dict, init=False)
@@ -258,6 +266,22 @@ class ChosenSession:
                 "--knowledge needs --sentence-begin and --sentence-end, or a --gesture-model by 'hri train-sentences'"
             )
 
+    def load_motions(self) -> LabelMotions | None:
+        """What the robot does for labels that are named in a file, if any."""
+        return None if self.motions_path is None else read_motions(self.motions_path, self.table)
+
+    def note_motions(self, session: Session, motions: LabelMotions | None) -> None:
+        """Say for which labels the robot has no motion, and which of `motions` it never makes."""
+        for label, why in session.refused.items():
+            note(f"no motion for {label}: {why}")
+        idle = [label for label in motions or () if label not in session.motions and label not in session.refused]
+        own = {*session.options.control_labels, *session.options.fusion.stop_labels}
+        unknown = [label for label in idle if label not in own]
+        if unknown:
+            note(f"WARNING: {self.motions_path}: no word or sign is {' or '.join(unknown)}")
+        for label in (label for label in idle if label in own):
+            note(f"WARNING: {self.motions_path}: {label} moves nothing: the dialogue has a use of its own for it")
+
     def open_robot(self, gui: bool = False, url: str | None = None) -> Robot | None:
         """The real NAO at `url`, or the simulated robot, to be closed; None where there is to be none."""
         if url is not None:
@@ -296,7 +320,8 @@ def session_options(command: Callable[..., None]) -> Callable[..., None]:
         if given["fusion_path"] is not None:
             refuse_given(("rule",), "has no effect: --fusion takes its place")
         if given["backend"] == _NO_ROBOT and given.get("url") is None:
-            refuse_given(("stand", "gui", "table"), "has no effect without a robot, as --backend none has it")
+            robots = ("motions_path", "stand", "gui", "table")
+            refuse_given(robots, "has no effect without a robot, as --backend none has it")
         command(chosen=ChosenSession(**{name: given.pop(name) for name in names}), **given)
 
     for option in reversed(_OPTIONS):

@@ -28,6 +28,7 @@ from hri.robot.motion.joint_trajectory import (
 from hri.robot.motion.nao_arms import with_nao_arms
 from hri.robot.motion.plots import plot_trajectory
 from hri.robot.motion.pulse_csv import read_pulse_csv, write_pulse_csv
+from hri.robot.motion.reading import MOTION_SUFFIXES, read_motion
 from hri.robot.motion.repair import Change, repair_pulse_csv
 from hri.robot.motion.self_collision import Touch, self_collisions
 from hri.robot.motion.shaping import concatenate, resample, slow_to_limits, smooth, spline
@@ -44,6 +45,7 @@ __all__ = [
     "BACKENDS",
     "GESTURE_JOINTS",
     "HOAP2",
+    "MOTION_SUFFIXES",
     "NAO",
     "POSTURES",
     "ROBOTS",
@@ -81,6 +83,7 @@ __all__ = [
     "open_robot",
     "plot_trajectory",
     "read_joint_trajectory",
+    "read_motion",
     "read_pulse_csv",
     "read_short_csv",
     "render_still",

@@ -7,6 +7,7 @@ from hri.session.event_schema import event_schema
 from hri.session.feeds import SessionRecorder
 from hri.session.imitation import Imitator
 from hri.session.live import EventQueue
+from hri.session.motions import LabelMotions, read_motions
 from hri.session.mover import Guided
 from hri.session.nao_camera import NaoCamera
 from hri.session.nao_microphone import NaoMicrophone
@@ -25,6 +26,7 @@ __all__ = [
     "EventQueue",
     "Guided",
     "Imitator",
+    "LabelMotions",
     "McapRecorder",
     "NaoCamera",
     "NaoMicrophone",
@@ -39,6 +41,7 @@ __all__ = [
     "decisions",
     "event_schema",
     "is_repeated",
+    "read_motions",
     "read_recording",
     "replay",
 ]

@@ -61,7 +61,8 @@ class Session:
     options : SessionOptions, optional
     motions : mapping of str to Trajectory or Guided, optional
         What the robot does for a label; by default what the slots of a command say (`hri.robot.command_trajectory`), or
-        the gesture of the same name. Those that the robot cannot make are left out, and `refused` says why.
+        the gesture of the same name; `LabelMotions` are of their labels only, and the others have that. Those that the
+        robot cannot make are left out, and `refused` says why.
     endpointer : EndpointerOptions, optional
         When a word begins and ends; see `hri.live.Listener`.
     segmenter : GestureSegmenterOptions or SentenceStreamOptions, optional
