@@ -105,6 +105,7 @@ def test_a_replay_by_other_models_that_decides_otherwise_fails(hri, scene: Path,
     assert (
         again.code == 1 and "differs from what was recorded at" in again.err and "replayed with other.hri" in again.err
     )
+    assert {row["model"].split(":")[0] for row in rows(again.out) if "model" in row} == {"other.hri"}
 
 
 def test_the_robot_moves_and_reports_labels_without_a_motion(hri, scene: Path) -> None:

@@ -161,7 +161,8 @@ def _replay(path: Path, chosen: ChosenSession, as_json: bool) -> None:
     compared = _Compared(recording.events())
 
     def kept() -> Any:
-        for event in replay(recording, words, signs, learned, stored, faces=chosen.person_finder()):
+        models = chosen.model_ids
+        for event in replay(recording, words, signs, learned, stored, faces=chosen.person_finder(), model_ids=models):
             compared.see(event.to_dict())
             yield event
 
