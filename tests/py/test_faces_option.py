@@ -88,7 +88,7 @@ def test_every_command_that_looks_for_hands_finds_them_as_told(
     commands = {
         "recognise": ("recognise", picture, "--gesture-model", model),
         "watch": ("watch", "--model", model, video),
-        "session": ("session", "--gesture-model", model, "--backend", "none", "--json", video),
+        "session": ("session", "--gesture-model", model, "--backend", "none", "--json-lines", video),
     }
     for name, command in commands.items():
         without = hri(*command)  # the model uses faces, and nothing finds them

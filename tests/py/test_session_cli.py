@@ -168,7 +168,7 @@ def test_what_is_missing_is_said_in_a_line(hri, scene: Path, tmp_path: Path) -> 
 def test_a_replay_refuses_what_the_recording_determines(hri, scene: Path, tmp_path: Path, more: tuple[str, ...]):
     (tmp_path / "no.mcap").write_bytes(b"no recording")
     replayed = ("session", "--replay", tmp_path / "no.mcap")
-    assert "not a recorded session" in hri(*replayed, "--speech-model", scene / "words.hri", "--json").err
+    assert "not a recorded session" in hri(*replayed, "--speech-model", scene / "words.hri", "--json-lines").err
     refused = hri(*replayed, *(scene / one if one == "said.wav" else one for one in more))
     assert refused.code == 2 and "has no effect: --replay takes what was recorded" in refused.err
 

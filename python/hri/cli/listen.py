@@ -80,13 +80,13 @@ def listen(
 ) -> None:
     """Recognise words as they are spoken, from a microphone or from recordings played as a stream.
 
-    On a terminal: level, start and end of speech, and every decision. Otherwise, or with --json, one JSON
+    On a terminal: level, start and end of speech, and every decision. Otherwise, or with --json-lines, one JSON
     object a line.
 
     \b
     Examples:
       hri listen
-      hri listen --model words.hri --json session.wav
+      hri listen --model words.hri --json-lines session.wav
       hri listen --wake robot --min-score 0.5
       hri listen --list-devices
     """

@@ -15,7 +15,9 @@ from hri.live import CameraSource, Event, FileSource, MicrophoneSource
 from hri.live.visibility import missing_text
 
 device_option = click.option("--device", help="Number or part of the name of the microphone.")
-events_json_option = click.option("--json", "as_json", is_flag=True, help="Write JSON lines also on a terminal.")
+events_json_option = click.option(
+    "--json-lines", "as_json", is_flag=True, help="Write JSON lines also on a terminal."
+)
 stall_option = click.option(
     "--stall",
     "stall_s",
@@ -46,7 +48,7 @@ def recording(path: str | PathLike[str], paced: bool = False) -> FileSource:
 
 
 def report(events: Iterable[Event], as_json: bool, describe: Callable[[Event], str]) -> None:
-    """Every event as a line of JSON; on a terminal, unless --json is given, the level and what `describe` makes
+    """Every event as a line of JSON; on a terminal, unless --json-lines is given, the level and what `describe` makes
     of the others."""
     if as_json or not sys.stdout.isatty():
         for event in events:

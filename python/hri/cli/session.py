@@ -71,7 +71,7 @@ def session(
 
     FILE is a sound file, a video, or one of each that began at the same time; without any, microphone and camera are
     used. STOP is heeded at any moment; Ctrl-C stops the robot and ends the session. On a terminal: the state, the
-    level, decisions and why; otherwise, or with --json, one JSON object a line.
+    level, decisions and why; otherwise, or with --json-lines, one JSON object a line.
 
     \b
     Examples:
@@ -82,7 +82,7 @@ def session(
       hri session --sentence-begin start --sentence-end end --knowledge sentences.csv
       hri session --gesture-model sentences.hri --no-speech --knowledge sentences.csv
       hri session --grammar robot.jsgf --stand --gui --no-gesture
-      hri session --backend kinematic --json words.wav signs.mp4
+      hri session --backend kinematic --json-lines words.wav signs.mp4
       hri session --replay class.mcap
       hri session --robot nao --url tcp://nao.local --camera nao --microphone nao
     """

@@ -73,13 +73,13 @@ def watch(
 
     With a model from 'hri train-sentences' signs follow on one another in sentences, which end as the hands rest.
 
-    On a terminal: where the hand is, gesture segments, and decisions. Otherwise, or with --json, one JSON object a
+    On a terminal: where the hand is, gesture segments, and decisions. Otherwise, or with --json-lines, one JSON object a
     line.
 
     \b
     Examples:
       hri watch
-      hri watch --model signs.hri --json session.mp4
+      hri watch --model signs.hri --json-lines session.mp4
       hri watch --device 1 --video seen.mp4
     """
     if video_path is not None and len(files) > 1:

@@ -84,7 +84,7 @@ def replay(
     faces : FaceFinder, optional
         As of `Session`, both.
     model_ids : mapping of mode to str, optional
-        Names of the models that are given, which their events carry; without it those of the recording: the same models.
+        Names of the models that are given, which their events carry; without it those of the recording.
 
     Raises
     ------
