@@ -73,8 +73,8 @@ def watch(
 
     With a model from 'hri train-sentences' signs follow on one another in sentences, which end as the hands rest.
 
-    On a terminal: where the hand is, gesture segments, and decisions. Otherwise, or with --json-lines, one JSON object a
-    line.
+    On a terminal: where the hand is, gesture segments, and decisions. Otherwise, or with --json-lines, one JSON object
+    a line.
 
     \b
     Examples:
