@@ -28,8 +28,26 @@ class FiniteRange(click.FloatRange):
         return number
 
 
+_OF_ONE_MODE = {"--model": ("--speech-model", "--gesture-model"), "--device": ("--microphone", "--camera")}
+"""What commands of one mode call that for which those of both modes have two names."""
+_MEANT = _OF_ONE_MODE | {long: (short,) for short, both in _OF_ONE_MODE.items() for long in both}
+
+
 class CheckedCommand(click.Command):
-    """A command whose outputs are none of its inputs, no recording of a folder that it reads, and not one another."""
+    """A command whose outputs are none of its inputs, no recording of a folder that it reads, and not one another.
+
+    Its error for an option of commands of one mode, or of both, names its own for that.
+    """
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        try:
+            return super().parse_args(ctx, args)
+        except click.NoSuchOption as error:
+            own = {name for param in self.params for name in param.opts}
+            error.possibilities = [
+                one for one in _MEANT.get(error.option_name, ()) if one in own
+            ] or error.possibilities
+            raise
 
     def invoke(self, ctx: click.Context) -> Any:
         _require_outputs_apart(ctx)
