@@ -13,6 +13,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.answers import alternatives
 from hri.cli.groups import CheckedCommand, is_given, refuse_given
 from hri.cli.live_screen import (
     describe_stream,
@@ -142,6 +143,5 @@ def describe(event: Event, top: int) -> str:
         return f"{event.time:8.2f} s  listening for a command"
     if event.decision is None:
         return describe_stream(event)
-    best = ", ".join(f"{entry.label} {entry.probability:.3f}" for entry in event.decision.nbest[:top])
     place = f"{event.fields['first_s']:8.2f} - {event.fields['last_s']:.2f} s"
-    return f"{place}  {event.decision.label}  ({best or event.decision.status})"
+    return f"{place}  {event.decision.label}  ({alternatives(event.decision, top)})"

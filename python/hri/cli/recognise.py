@@ -10,6 +10,7 @@ from typing import Any
 
 import click
 
+from hri.cli.answers import alternatives, confidence_text
 from hri.cli.faces import faces_option, look_for_faces
 from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.messages import note
@@ -120,7 +121,7 @@ def recognise(
         seen = signs.recognise(gesture)
         _describe(seen, gesture, top)
     decision = fuse(heard, seen, rule=learned or rule)
-    say(f"{decision.label}\t{decision.confidence:.3f}\t{decision.rule}", json_path)
+    say(f"{decision.label}\t{confidence_text(decision)}\t{decision.rule}", json_path)
     answer = None
     try:
         if robot_path is not None or gui:
@@ -153,8 +154,7 @@ def _only_one(before: str | None, file: str, what: str) -> str:
 
 def _describe(decision: Decision, path: str, top: int) -> None:
     """What one mode found, on standard error."""
-    best = ", ".join(f"{entry.label} {entry.probability:.3f}" for entry in decision.nbest[:top])
-    note(f"{decision.mode}: {decision.label} ({best or decision.status}) {path}")
+    note(f"{decision.mode}: {decision.label} ({alternatives(decision, top)}) {path}")
     for text in decision.notes:
         note(f"{decision.mode}: note: {text}")
         if "utterances" in text:
