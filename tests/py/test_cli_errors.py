@@ -68,9 +68,9 @@ def test_usage_errors_are_one_line_that_names_the_help(hri):
 @pytest.mark.parametrize(
     ("arguments", "named"),
     [
-        ("session --model m.hri", ("--gesture-model", "--speech-model")),
-        ("session --device 1", ("--camera", "--microphone")),
-        ("recognise --model m.hri", ("--gesture-model", "--speech-model")),
+        ("session --model m.hri", ("--speech-model", "--gesture-model")),
+        ("session --device 1", ("--microphone", "--camera")),
+        ("recognise --model m.hri", ("--speech-model", "--gesture-model")),
         ("listen --microphone 1", ("--device",)),
         ("watch --gesture-model m.hri", ("--model",)),
         ("listen --json f", ("--json-lines",)),

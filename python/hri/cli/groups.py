@@ -44,10 +44,11 @@ class CheckedCommand(click.Command):
             return super().parse_args(ctx, args)
         except click.NoSuchOption as error:
             own = {name for param in self.params for name in param.opts}
-            error.possibilities = [
-                one for one in _MEANT.get(error.option_name, ()) if one in own
-            ] or error.possibilities
-            raise
+            meant = [name for name in _MEANT.get(error.option_name, ()) if name in own]
+            if not meant:
+                raise
+            message = f"No such option '{error.option_name}'. Did you mean {' or '.join(meant)}?"
+            raise click.UsageError(message, error.ctx) from error
 
     def invoke(self, ctx: click.Context) -> Any:
         _require_outputs_apart(ctx)
