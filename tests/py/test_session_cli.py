@@ -237,7 +237,7 @@ def test_the_screen_shows_decisions_and_why(monkeypatch: pytest.MonkeyPatch) -> 
         Event(0.6, "state", {"state": "listening", "before": "idle"}, mode="session"),
         Event(1.0, "fused", {
             "final": "7", "status": "recognised", "rule": "table 6.9: x", "why": "at once", "gesture": None,
-            "speech": {"label": "7", "confidence": 0.9}}, mode="session"),
+            "speech": {"label": "7", "status": "recognised", "confidence": 0.9}}, mode="session"),
         Event(1.0, "say", {"text": "7."}, mode="session"),
         Event(1.0, "motion_start", {"label": "7", "wait_ms": 312.0, "compute_ms": 4.2}, mode="robot"),
         Event(2.0, "stop", {"label": "stop", "reason": "stop: recognised in speech"}, mode="session"),
