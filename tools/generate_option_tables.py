@@ -52,6 +52,9 @@ Every option of every class, as the library itself lists them. In Python they ar
 `--option num_states=8 --option cepstra.num_filters=30`, and `hri options speech` prints what it takes; in C++ they are
 the fields of the structs. A value outside its range is refused when it is set. A field of another class takes an
 object of that class or a dict of the fields to change.
+
+`hri train` and `hri.train` decide three of them by the recordings and the extras where they are not given, in place of
+the defaults below: `front_end` and `use_network` of words, `source` of gestures; `hri options` says by what.
 """
 
 

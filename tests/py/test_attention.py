@@ -135,7 +135,7 @@ def test_a_stream_is_listened_to_after_the_wake_word(words: WordRecognizer) -> N
 def test_the_command_line_takes_a_wake_word(words: WordRecognizer, hri: Any, tmp_path: Path) -> None:
     words.save(tmp_path / "words.hri")
     _native.write_wav_pcm16(str(tmp_path / "session.wav"), session(["rise", "fall", "fall"]), RATE_HZ)
-    common = ("listen", "--model", tmp_path / "words.hri", "--json", tmp_path / "session.wav")
+    common = ("listen", "--model", tmp_path / "words.hri", "--json-lines", tmp_path / "session.wav")
     lines = [json.loads(line) for line in hri(*common, "--wake", "rise", "--min-score", -20).out.splitlines()]
     assert [row["event"] for row in lines if "nbest" in row] == ["wake", "decision", "ignored"]
     refused = hri(*common, "--wake", "robot")

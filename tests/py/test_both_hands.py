@@ -147,7 +147,7 @@ def test_the_commands_record_train_and_recognise_both_hands(hri: Any, tmp_path: 
     assert done.code == 0, done.err
     video = tmp_path / "apart.avi"
     write_video(video, clip("apart", 1.0, rest=25), 20.0)
-    lines = [json.loads(line) for line in hri("watch", "--model", model, "--json", video).out.splitlines()]
+    lines = [json.loads(line) for line in hri("watch", "--model", model, "--json-lines", video).out.splitlines()]
     assert [line["nbest"][0]["label"] for line in lines if line["event"] == "decision"] == ["apart"]
     assert hri("train", "speech", "--data", data, "--hands", "both").code == 2
     kept = hri("record", "gesture", "apart", "--hands", "both", "--person", "ben", "--takes", 1, "--from", video,

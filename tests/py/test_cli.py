@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import re
 import signal
 import subprocess
 import sys
@@ -17,12 +18,17 @@ import pytest
 
 from conftest import RATE_HZ, tone_word
 from hri import _native
+from hri.cli.answers import alternatives, confidence_text
 from hri.cli.info import EXTRAS
 from hri.cli.main import COMMANDS
 from hri.cli.recognizers import parse_options
+from hri.cli.session_screen import describe
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
+from hri.fusion import FusedDecision
 from hri.io import write_wav_pcm16
+from hri.live import Event
+from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN, Decision, NBest
 from hri.studies import STUDIES
 
 pytestmark = pytest.mark.usefixtures("few_fillers")
@@ -60,9 +66,31 @@ def test_robot_answers_on_film_and_rests_when_nothing_was_said(hri, spoken: Path
     silence = tmp_path / "silence.wav"
     write_wav_pcm16(str(silence), 0 * tone_word(500, 0, 0), RATE_HZ)
     rests = hri("recognise", "--speech", silence, "--robot", tmp_path / "none.mp4", "--json", tmp_path / "r.json")
-    assert rests.code == 0 and rests.out.startswith("no_input\t")
+    assert rests.code == 0 and rests.out.startswith("no_input\t-\t")
     assert "robot: not moved" in rests.err and not (tmp_path / "none.mp4").exists()
     assert json.loads((tmp_path / "r.json").read_text())["robot"] == {"moved": False, "reason": "no_input"}
+
+
+def test_the_confidence_of_a_label_that_was_rejected_is_not_shown_as_that_of_unknown() -> None:
+    nbest = (NBest("7", 0.998, -1.0), NBest("4", 0.002, -9.0))
+    rejected = Decision("speech", UNKNOWN, UNKNOWN, 0.998, nbest=nbest)
+    assert (confidence_text(rejected), alternatives(rejected, 2)) == ("nearest: 7", "nearest: 7, 4")
+    sure = Decision("speech", "7", RECOGNISED, 0.998, nbest=nbest)
+    assert (confidence_text(sure), alternatives(sure, 2)) == ("0.998", "7 0.998, 4 0.002")
+    nothing = Decision("speech", NO_INPUT, NO_INPUT, 0.0)
+    assert (confidence_text(nothing), alternatives(nothing, 2)) == ("-", NO_INPUT)
+    asked = FusedDecision("ask", "ask", 0.0, "stop", nbest=nbest)
+    assert confidence_text(asked) == "0.000"
+    decided = {"speech": rejected.to_dict(), "gesture": None, "final": "", "status": UNKNOWN, "rule": "r", "why": "w"}
+    assert describe(Event(1.0, "fused", decided, mode="session")).endswith("s  unknown  (word unknown; r; w)")
+
+
+def test_exit_codes_in_the_help_are_those_of_the_page(hri) -> None:
+    page = (Path(__file__).resolve().parents[2] / "docs" / "command_line.md").read_text(encoding="utf-8")
+    table = page.partition("| exit code |")[2].partition("\n\n")[0]
+    written = {code for row in re.findall(r"^\| ([0-9, ]+) \|", table, re.MULTILINE) for code in row.split(", ")}
+    shown = hri("--help").out.partition("Exit codes:")[2].partition("\n\n")[0]
+    assert set(re.findall(r"\b[0-9]+\b", shown)) == written
 
 
 def test_evaluate_by_person_and_by_folders(hri, spoken: Path, tmp_path: Path):
@@ -82,7 +110,8 @@ def test_evaluate_by_person_and_by_folders(hri, spoken: Path, tmp_path: Path):
 
     quick = ("--option", "num_states=4", "--option", "use_network=false")
     split = hri("evaluate", "speech", "--train", spoken, "--test", spoken, *quick)
-    assert split.code == 0 and split.out.splitlines()[-1].startswith("all\t18\t100.0 %")
+    assert split.code == 0 and split.out.splitlines()[-1].startswith("all\t18\t100.0 %\t"), "no spread of one fold"
+    assert "WARNING: in both folders: high low middle" in split.err
 
 
 def test_evaluate_gestures_of_unseen_persons(hri, signed: Path):

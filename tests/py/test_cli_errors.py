@@ -7,6 +7,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -62,6 +63,25 @@ def test_usage_errors_are_one_line_that_names_the_help(hri):
         result = hri(*arguments.split())
         assert result.code == 2 and result.err.count("\n") == 1
         assert result.err.endswith(f"(see '{place} --help')\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        ("session --model m.hri", ("--speech-model", "--gesture-model")),
+        ("session --device 1", ("--microphone", "--camera")),
+        ("recognise --model m.hri", ("--speech-model", "--gesture-model")),
+        ("listen --microphone 1", ("--device",)),
+        ("watch --gesture-model m.hri", ("--model",)),
+        ("listen --json f", ("--json-lines",)),
+    ],
+)
+def test_the_name_that_other_commands_have_for_an_option_is_answered_with_its_own(
+    hri, arguments: str, named: tuple[str, ...]
+):
+    result = hri(*arguments.split())
+    meant = result.err.partition("Did you mean")[2]
+    assert result.code == 2 and re.findall(r"--[a-z-]+", meant.partition("?")[0]) == list(named), result.err
 
 
 def test_choices_that_an_option_does_not_have_are_listed(hri, spoken: Path):

@@ -88,7 +88,7 @@ def test_every_command_that_looks_for_hands_finds_them_as_told(
     commands = {
         "recognise": ("recognise", picture, "--gesture-model", model),
         "watch": ("watch", "--model", model, video),
-        "session": ("session", "--gesture-model", model, "--backend", "none", "--json", video),
+        "session": ("session", "--gesture-model", model, "--backend", "none", "--json-lines", video),
     }
     for name, command in commands.items():
         without = hri(*command)  # the model uses faces, and nothing finds them
@@ -122,3 +122,17 @@ def test_what_would_have_no_effect_is_refused(hri: Any, shown: Path, tmp_path: P
         look_for_faces(joints, "auto")
     with pytest.raises(UsageError, match="the head"):
         look_for_faces(library.SentenceRecognizer(), "never")
+
+
+def test_hands_are_shown_as_models_are_trained_on_them_without_faces(
+    hri: Any, shown: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(faces.VARIABLE, str(tmp_path / "any.xml"))
+    picture = shown / "left" / "asha_0.png"
+    for command in (("hands", picture), ("features", picture, "--kind", "fourier")):
+        found = {choice: hri(*command, "--faces", choice) for choice in ("never", "auto")}
+        assert found["never"].code == 0 and found["auto"].out != found["never"].out, command
+        assert hri(*command).out == found["never"].out, command
+    (tmp_path / "a.wav").write_bytes(b"")
+    refused = hri("features", tmp_path / "a.wav", "--faces", "never")
+    assert refused.code == 2 and "--faces is of pictures and videos" in refused.err

@@ -91,7 +91,7 @@ def test_a_recording_that_is_played_as_a_stream_says_what_is_wrong_with_it(run: 
     path = tmp_path / "cut.wav"
     path.write_bytes(wav(np.repeat(WORD, 2), channels=2)[:-4000])
     recorded = ("record", "word", "1", "--person", "asha", "--takes", "1", "--out", tmp_path / "words")
-    for command in (("listen", "--json", path), (*recorded, "--from", path)):
+    for command in (("listen", "--json-lines", path), (*recorded, "--from", path)):
         result = run(*command)
         assert result.code == 0, result.err
         assert f"{path}: file ends early" in result.err and f"{path}: 2 channels averaged to mono" in result.err

@@ -285,6 +285,8 @@ def test_the_command_writes_a_motion_that_passes_the_check(hri, tmp_path):
     assert read_pulse_csv(out).duration_s == pytest.approx(json.loads(report.read_text())["motion_s"])
     assert hri("robot", "imitate", tmp_path / "hands.csv", "--out", tmp_path / "other.csv", "--mirrored").code == 0
     assert not np.array_equal(read_pulse_csv(tmp_path / "other.csv").positions_rad, read_pulse_csv(out).positions_rad)
+    printed = hri("robot", "imitate", tmp_path / "hands.csv", "--out", out, "--json", "-", "--height-px", HEIGHT_PX)
+    assert json.loads(printed.out) == json.loads(report.read_text())
     write_track(tmp_path / "two.csv", ("b", "a"))
     several = hri("robot", "imitate", tmp_path / "two.csv", "--out", out)
     assert several.code == 3 and "--track chooses one: b, a" in several.err

@@ -6,10 +6,12 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 import hri
+from hri.core.optional import import_pybullet
 
 
 def loaded_by(statement: str) -> set[str]:
@@ -44,3 +46,15 @@ def test_version_stands_once() -> None:
 
     cmake = (Path(__file__).parents[2] / "CMakeLists.txt").read_text()
     assert f"project(hri VERSION {hri.__version__} " in cmake
+
+
+def test_what_pybullet_prints_when_it_is_imported_is_not_shown(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "pybullet.py").write_text("import os; os.write(2, b'build time\\n')")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setitem(sys.modules, "pybullet", None)
+    monkeypatch.delitem(sys.modules, "pybullet")
+    assert import_pybullet().__file__ == str(tmp_path / "pybullet.py")
+    print("after", file=sys.stderr)
+    assert capfd.readouterr().err == "after\n"

@@ -15,7 +15,7 @@ import pytest
 
 import hri
 from hri import _native, _native_vision
-from hri.cli.options import option_table
+from hri.cli.options import CHOSEN_BY_TRAIN, option_table
 from hri.cli.recognizers import CLASSES, recognizer_factory
 from hri.core.errors import InvalidArgument
 from hri.recognition import keywords
@@ -169,6 +169,8 @@ def test_the_command_line_knows_every_field(mode: str, hri: Any) -> None:
     options_class = type(CLASSES[mode]().options)
     printed = hri("options", mode).out
     rows = list(option_table(options_class))
+    train = {line.split("=")[0] for line in printed.splitlines() if "\t'hri train' takes " in line}
+    assert train == set(CHOSEN_BY_TRAIN[mode]) <= {row["name"] for row in rows}
     for row in rows:
         assert f"{row['name']}={row['default']}\t" in printed and row["description"] in printed
 

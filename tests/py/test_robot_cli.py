@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The commands of ``hri robot``."""
 
+import json
 import signal
 
+import numpy as np
 import pytest
 
 from hri.core.errors import InvalidArgument, IoError
-from hri.robot import HOAP2, TrajectoryError, gesture_trajectory, load_gestures, read_pulse_csv
+from hri.robot import HOAP2, TrajectoryError, gesture_trajectory, load_gestures, read_pulse_csv, read_short_csv
 
 testing = pytest.importorskip("click.testing")
 
@@ -46,6 +48,11 @@ def test_convert_writes_degrees(run, tmp_path):
     lines = path.read_text().splitlines()
     assert lines[0].startswith("time_s\tlarm_joint_1_deg")
     assert lines[1].split("\t")[:2] == ["0", "80.0000"] and len(lines) == len(gesture_trajectory("1")) + 1
+    assert run("check", path).output == f"{path}: 0 errors, 0 warnings\n"
+    back = read_short_csv(path)
+    assert back.joint_names == gesture_trajectory("1").joint_names
+    np.testing.assert_allclose(back.positions_rad, gesture_trajectory("1").positions_rad, atol=1e-6)
+    assert run("play", path, "--backend", "kinematic").exit_code == 0
     assert run("convert", "1", tmp_path / "g.txt").exit_code == 2
     assert isinstance(run("convert", "1", tmp_path / "no" / "g.tsv").exception, IoError)
 
@@ -73,6 +80,23 @@ def test_no_message_of_an_unsafe_motion_is_written(run, tmp_path):
     assert isinstance(error, TrajectoryError) and str(error).startswith(f"{path}: row 4, column B") and not out.exists()
     result = run("convert", path, out, "--slow")
     assert result.exit_code == 0 and "slowed from 0.1" in result.output and run("check", out).exit_code == 0
+
+
+def test_many_motions_are_checked_and_findings_of_a_kind_are_counted(run, tmp_path):
+    path, report = tmp_path / "bad.csv", tmp_path / "found.json"
+    path.write_text("10,2\n" * 40)
+    result = run("check", path, "--json", report)
+    assert result.exit_code == 3
+    rows = [line.split("\t") for line in result.stdout.splitlines()]
+    assert [row[1] for row in rows] == ["1", "2", "3", ""] and rows[3][4] == "and 37 more like this one"
+    (found,) = json.loads(report.read_text())["motions"]
+    assert found["errors"] == len(found["findings"]) == 40 and found["findings"][39]["row"] == 40
+    result = run("check", "wave", path)
+    assert result.exit_code == 3 and "wave: 0 errors" in result.output
+    assert result.stdout.startswith(f"{path}\terror\t1\t")
+    assert run("check", "wave", "namaste", "--robot", "nao").exit_code == 0
+    assert run("check", "wave", "--repair", tmp_path / "good.csv").exit_code == 2
+    assert isinstance(run("check", "salute").exception, InvalidArgument)
 
 
 def test_urdf_is_written(run, tmp_path):
@@ -126,6 +150,18 @@ def test_lists(run):
     assert f"9\t{gesture_trajectory('9').duration_s:.1f}\tboth arms high" in listed
     assert len(run("joints").output.splitlines()) == len(HOAP2) + 1
     assert "| head_joint_2 | head pitch" in run("joints", "--markdown").output
+    as_json = json.loads(run("joints", "--json", "-").stdout)
+    assert [joint["joint"] for joint in as_json["joints"]] == list(HOAP2.names)
+    as_json = json.loads(run("gestures", "--robot", "nao", "--json", "-").stdout)
+    assert as_json["robot"] == "NAO" and [one["gesture"] for one in as_json["gestures"]] == list(load_gestures())
+    assert all(one["hand_m"] >= 0 for one in as_json["gestures"])
+
+
+def test_motions_of_both_robots_are_drawn(run, tmp_path):
+    pytest.importorskip("matplotlib")
+    for robot in ("hoap2", "nao"):
+        assert run("plot", "wave", tmp_path / f"{robot}.svg", "--robot", robot).exit_code == 0
+    assert (tmp_path / "hoap2.svg").read_bytes() != (tmp_path / "nao.svg").read_bytes()
 
 
 def test_a_stop_label_moves_no_robot(tmp_path):

@@ -107,6 +107,7 @@ def test_a_replay_by_other_models_that_decides_otherwise_fails(hri, scene: Path,
     assert (
         again.code == 1 and "differs from what was recorded at" in again.err and "replayed with other.hri" in again.err
     )
+    assert {row["model"].split(":")[0] for row in rows(again.out) if "model" in row} == {"other.hri"}
 
 
 def test_the_robot_moves_and_reports_labels_without_a_motion(hri, scene: Path) -> None:
@@ -187,7 +188,7 @@ def test_what_is_missing_is_said_in_a_line(hri, scene: Path, tmp_path: Path) -> 
 def test_a_replay_refuses_what_the_recording_determines(hri, scene: Path, tmp_path: Path, more: tuple[str, ...]):
     (tmp_path / "no.mcap").write_bytes(b"no recording")
     replayed = ("session", "--replay", tmp_path / "no.mcap")
-    assert "not a recorded session" in hri(*replayed, "--speech-model", scene / "words.hri", "--json").err
+    assert "not a recorded session" in hri(*replayed, "--speech-model", scene / "words.hri", "--json-lines").err
     refused = hri(*replayed, *(scene / one if one == "said.wav" else one for one in more))
     assert refused.code == 2 and "has no effect: --replay takes what was recorded" in refused.err
 
@@ -256,7 +257,7 @@ def test_the_screen_shows_decisions_and_why(monkeypatch: pytest.MonkeyPatch) -> 
         Event(0.6, "state", {"state": "listening", "before": "idle"}, mode="session"),
         Event(1.0, "fused", {
             "final": "7", "status": "recognised", "rule": "table 6.9: x", "why": "at once", "gesture": None,
-            "speech": {"label": "7", "confidence": 0.9}}, mode="session"),
+            "speech": {"label": "7", "status": "recognised", "confidence": 0.9}}, mode="session"),
         Event(1.0, "say", {"text": "7."}, mode="session"),
         Event(1.0, "motion_start", {"label": "7", "wait_ms": 312.0, "compute_ms": 4.2}, mode="robot"),
         Event(2.0, "stop", {"label": "stop", "reason": "stop: recognised in speech"}, mode="session"),

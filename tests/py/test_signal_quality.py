@@ -163,7 +163,7 @@ def test_the_command_line_takes_a_learned_fusion(
     assert float(done.out.split("\t")[1]) == pytest.approx(fuse(heard, seen, rule=fusion).confidence, abs=1e-3)
     write_wav_pcm16(str(tmp_path / "scene.wav"), speech([("flat", 1.5)], 5.0), RATE_HZ)
     write_video(tmp_path / "scene.avi", signing([("flat", 1.2)], 5.0), FPS)
-    scene = ("--backend", "none", "--json", tmp_path / "scene.wav", tmp_path / "scene.avi")
+    scene = ("--backend", "none", "--json-lines", tmp_path / "scene.wav", tmp_path / "scene.avi")
     assert '"rule": "learned logistic' in hri("session", *models, *learned, *scene).out
     wrong = hri("recognise", *models, "--fusion", tmp_path / "words.hri", tmp_path / "said.wav", tmp_path / "shown.png")
     assert wrong.code != 0 and "the file holds 'word_recognizer', not 'learned_fusion'" in wrong.err

@@ -40,9 +40,13 @@ def test_train_says_what_it_measured_on_people_held_out(
     said = capsys.readouterr().err
     assert f"of 18 recordings of people held out in training, {100 * found.accuracy:.1f} % are right" in said
     assert main(["info", str(path)]) == 0
-    assert f"held_out accuracy\t{found.accuracy}" in capsys.readouterr().out
+    printed = capsys.readouterr().out
+    assert f"held_out accuracy\t{100 * found.accuracy:.1f} %\n" in printed and "added since" not in printed
     words.add_word("3", [hri.read_audio(spoken / "1_low_0.wav")])
     assert words.held_out is not None and words.held_out.labels == ("1", "2")
+    words.save(path)
+    assert main(["info", str(path)]) == 0
+    assert "held_out is of training, without what was added since\t3\n" in capsys.readouterr().out
 
 
 def _say(folder: Path, label: str, person: str, slope: float, base_hz: float, takes: int) -> None:

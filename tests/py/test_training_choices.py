@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -39,6 +40,26 @@ def test_what_is_given_stands(spoken: Path, monkeypatch: pytest.MonkeyPatch) -> 
     assert choose_options(dataset, {"front_end": "cepstra"}, num_persons=2).options == {}
     assert choose_options(dataset, {"use_network": False}).options == {"front_end": "both"}
     assert choose_options(dataset, num_persons=10).options == {"front_end": "both", "use_network": True}
+
+
+def test_a_pattern_that_takes_names_for_labels_replaces_no_model(
+    hri: Any, spoken: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    quick = ("--no-fillers", "--front-end", "cepstra", "--no-network", "--option", "num_states=4")
+    kept, wrong = tmp_path / "data" / "hri" / "speech.hri", ("--pattern", "{label}.wav")
+    train = ("train", "speech", "--data", spoken, *quick)
+    first = hri(*train)
+    assert first.code == 0 and "replaces" not in first.err and "single recording" not in first.err
+    before = kept.read_bytes()
+    refused = hri(*train, *wrong)
+    assert refused.code == 3 and kept.read_bytes() == before
+    assert "each of the 18 labels has a single recording: 1_high_0" in refused.err and "name --out" in refused.err
+    monkeypatch.setattr("hri.cli.train_checks.MOST_SINGLE", 18)
+    monkeypatch.setattr("hri.cli.train.train_recognizer", lambda *_, **__: 1 / 0)
+    warned = hri(*train, *wrong)
+    assert "WARNING: each of the 18 labels" in warned.err and "and 13 more" in warned.err
+    assert re.search(r"speech.hri: replaces the model of 20\d\d-.*, 2 labels: 1 2\n", warned.err)
+    assert "replaces" not in hri(*train).err, "it has the same labels"
 
 
 @pytest.mark.parametrize("given", [{"front_end": "mfcc"}, {"num_state": 3}])

@@ -25,7 +25,7 @@ _file = click.Path(exists=True, dir_okay=False)
 @click.argument("files", type=_file, nargs=-1, metavar="[FILE]...")
 @click.option("--model", type=_file, help="A model from 'hri train speech'; the default is the one kept per user.")
 @embedding_option
-@click.option("-o", "--output", required=True, type=OutputFile(replaces=("model",)), help="File of the adapted model.")
+@click.option("-o", "--out", required=True, type=OutputFile(replaces=("model",)), help="File of the adapted model.")
 @click.option(
     "--label",
     help="The word in every FILE (supervised); without it, it is unsupervised, by what FILES are recognised as.",
@@ -38,7 +38,7 @@ def adapt(
     files: tuple[str, ...],
     model: str | None,
     embedding_path: str | None,
-    output: str,
+    out: str,
     label: str | None,
     data: str | None,
     person: str | None,
@@ -81,13 +81,13 @@ def adapt(
             if len(words) > 1
             else f"{words[0][0]}: there is no word to learn from"
         )
-    Path(output).parent.mkdir(parents=True, exist_ok=True)
-    adapter.recognizer.save(output)
+    Path(out).parent.mkdir(parents=True, exist_ok=True)
+    adapter.recognizer.save(out)
     for path, word in heard:
         say(f"{word}\t{path}", json_path)
     counts = {"num_words": adapter.num_words, "num_learned": adapter.num_learned}
-    note(f"learned from {adapter.num_learned} of {len(words)} recordings: {output}")
-    write_json(json_path, {"model": output, **counts, "labels": {str(path): word for path, word in heard}})
+    note(f"learned from {adapter.num_learned} of {len(words)} recordings: {out}")
+    write_json(json_path, {"model": out, **counts, "labels": {str(path): word for path, word in heard}})
 
 
 def _heard(adapter: SpeakerAdapter, words: list[tuple[Path, str | None]]) -> Iterator[tuple[Path, str]]:

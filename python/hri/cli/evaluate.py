@@ -192,6 +192,7 @@ def evaluate(
         "exposure": exposure,
         "embedding": embedding_for(make(), embedding_path),
     }
+    test: Dataset | None = None
     with progress_bars() as progress:
         conditions["progress"] = progress
         if test_dir is None:
@@ -200,15 +201,16 @@ def evaluate(
             )
         else:
             test = load_dataset(test_dir, mode, pattern)
-            _warn_of_shared_persons(dataset, test)
             result = evaluate_split(dataset, test, make, **conditions)
     say_table(_table(result), json_path)
+    if "stratified" in str(result.conditions.get("folds", "")):
+        note(f"WARNING: folds are {result.conditions['folds']}")
+    if test is not None:
+        _warn_of_shared_persons(dataset, test)
     measured = make()
     lines = what_words_are_of(measured.options) if isinstance(measured, WordRecognizer) else [why_source]
     for line in filter(None, lines):
         note(line)
-    if "stratified" in str(result.conditions.get("folds", "")):
-        note(f"folds are {result.conditions['folds']}")
     if confusion is not None:
         Path(confusion).parent.mkdir(parents=True, exist_ok=True)
         result.plot_confusion(confusion)
@@ -233,7 +235,8 @@ def _refuse_all_but(*names: str) -> None:
 def _warn_of_shared_persons(train: Dataset, test: Dataset) -> None:
     shared = [person for person in test.persons if person in train.persons]
     if shared:
-        note(f"in both folders: {' '.join(shared)}; if they are the same persons, the test is not speaker-independent")
+        named = " ".join(shared)
+        note(f"WARNING: in both folders: {named}; if they are the same persons, the test is not speaker-independent")
 
 
 def _table(result: EvaluationResult) -> list[tuple[str, ...]]:
@@ -244,7 +247,7 @@ def _table(result: EvaluationResult) -> list[tuple[str, ...]]:
         accuracy = f"{100 * fold.accuracy:.1f} %"
         rows.append((fold.name, *_cells(len(fold.items), accuracy, fold.rejected, fold)))
     rejected = sum(fold.rejected * len(fold.items) for fold in result.folds) / len(result.items)
-    accuracy = f"{100 * result.mean:.1f} % ± {100 * result.std:.1f}"
+    accuracy = f"{100 * result.mean:.1f} %" + (f" ± {100 * result.std:.1f}" if len(result.folds) > 1 else "")
     return [*rows, ("all", *_cells(len(result.items), accuracy, rejected, result))]
 
 

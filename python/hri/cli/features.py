@@ -12,6 +12,7 @@ from typing import Any
 import click
 import numpy as np
 
+from hri.cli.faces import faces_option
 from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, write_bytes, write_text
@@ -46,6 +47,7 @@ from hri.vision.hands import find_silhouettes
     help="A field of the kind's options, such as num_cepstra=19 (CepstraOptions) or num_harmonics=8 "
     "(FourierDescriptorOptions); may be given several times.",
 )
+@faces_option("never: an open palm may look like a face")
 @click.option(
     "-o",
     "--out",
@@ -60,7 +62,13 @@ from hri.vision.hands import find_silhouettes
     help="Also draw the waveform, or the hand with its outline, and the features.",
 )
 def features(
-    recording: str, kind: str | None, preset: Any, options: tuple[str, ...], out: str | None, plot: str | None
+    recording: str,
+    kind: str | None,
+    preset: Any,
+    options: tuple[str, ...],
+    faces: str | None,
+    out: str | None,
+    plot: str | None,
 ) -> None:
     """Features of RECORDING, one row a frame: cepstra of sound, shapes of the hand in a picture or video.
 
@@ -79,7 +87,9 @@ def features(
         raise click.UsageError(f"{recording} has no features of kind {kind}; there are: {', '.join(known)}")
     if seen:
         refuse_given(("preset",), "is of sound")
-    found = _seen(recording, kind, options) if seen else _heard(recording, kind, preset, options)
+    else:
+        refuse_given(("faces",), "is of pictures and videos")
+    found = _seen(recording, kind, options, faces) if seen else _heard(recording, kind, preset, options)
     if plot is not None:
         _plot(plot, found)
     if out is not None and Path(out).suffix.lower() == ".npy":
@@ -118,7 +128,7 @@ def _heard(recording: str, kind: Any, preset: Any, options: tuple[str, ...]) -> 
     return _Found(title, rows, column_names(chosen), 1000 / chosen.frame_shift_ms, audio)
 
 
-def _seen(recording: str, kind: Any, options: tuple[str, ...]) -> _Found:
+def _seen(recording: str, kind: Any, options: tuple[str, ...], faces: str | None) -> _Found:
     frames = read_frames(recording).frames
     rate = frame_rate(recording) if Path(recording).suffix.lower() in VIDEO_SUFFIXES else 1.0
     fields = parse_options(options)
@@ -126,7 +136,7 @@ def _seen(recording: str, kind: Any, options: tuple[str, ...]) -> _Found:
         fields.setdefault("frames_per_second", rate)
     with naming_options():
         names = hand_column_names(kind, **fields)
-    shapes = find_silhouettes(frames)
+    shapes = find_silhouettes(frames, faces=faces or "never")
     empty = [str(i) for i, shape in enumerate(shapes) if not shape.mask.any()]
     if len(empty) == len(shapes):
         raise InvalidArgument(f"{recording}: no hand is seen")

@@ -28,8 +28,27 @@ class FiniteRange(click.FloatRange):
         return number
 
 
+_OF_ONE_MODE = {"--model": ("--speech-model", "--gesture-model"), "--device": ("--microphone", "--camera")}
+"""What commands of one mode call that for which those of both modes have two names."""
+_MEANT = _OF_ONE_MODE | {long: (short,) for short, both in _OF_ONE_MODE.items() for long in both}
+
+
 class CheckedCommand(click.Command):
-    """A command whose outputs are none of its inputs, no recording of a folder that it reads, and not one another."""
+    """A command whose outputs are none of its inputs, no recording of a folder that it reads, and not one another.
+
+    Its error for an option of commands of one mode, or of both, names its own for that.
+    """
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        try:
+            return super().parse_args(ctx, args)
+        except click.NoSuchOption as error:
+            own = {name for param in self.params for name in param.opts}
+            meant = [name for name in _MEANT.get(error.option_name, ()) if name in own]
+            if not meant:
+                raise
+            message = f"No such option '{error.option_name}'. Did you mean {' or '.join(meant)}?"
+            raise click.UsageError(message, error.ctx) from error
 
     def invoke(self, ctx: click.Context) -> Any:
         _require_outputs_apart(ctx)

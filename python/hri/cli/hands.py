@@ -56,7 +56,7 @@ METHODS = ("chroma_otsu", "hsv_narrow", "hsv_wide", "grey_otsu")
     "--method",
     type=click.Choice(METHODS),
     help="Find the hand in every picture by itself: Otsu's threshold on chroma or grey, or fixed HSV bounds.  "
-    "[default: by the face of a person, or by colours learned from the clip]",
+    "[default: by colours learned from the clip]",
 )
 @click.option(
     "--background",
@@ -64,7 +64,7 @@ METHODS = ("chroma_otsu", "hsv_narrow", "hsv_wide", "grey_otsu")
     help="A picture of the place without a person; what looks like skin there as well is no hand.  'clip': what most "
     "frames of the clip show.",
 )
-@faces_option("auto, without --method and --background")
+@faces_option("never: an open palm may look like a face")
 @click.option("--as-found", is_flag=True, help="Leave masks that jump for a frame or two as they are.")
 @click.option(
     "--fps",
@@ -111,7 +111,7 @@ def hands(
       hri hands pictures/ --fps 15 --kind fourier --video seen.webm
       hri hands swipe.mp4 --source landmarks -o joints.json
       hri hands clap.mp4 --max-hands 2 --video seen.mp4
-      hri hands room.mp4 --faces haarcascade_frontalface_alt2.xml --video seen.mp4
+      hri hands room.mp4 --faces auto --video seen.mp4
       hri hands swipe.mp4 --method hsv_wide --background empty_room.jpg --video seen.mp4
     """
     if (kind is not None or options) and source != "silhouettes":
@@ -141,7 +141,7 @@ def hands(
             smooth=not as_found,
             silhouette=_options(method),
             background=_background(background, read),
-            faces=faces or "auto",
+            faces=faces or "never",
             **fields,
         )
         if video_path is not None:

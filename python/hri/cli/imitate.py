@@ -4,16 +4,14 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import click
 
 from hri.cli.groups import CheckedCommand, FiniteRange
 from hri.cli.messages import note
-from hri.cli.output import OutputFile
+from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.core.errors import InvalidArgument
-from hri.core.files import write_text
 from hri.media import VIDEO_SUFFIXES
 from hri.robot.imitation.imitate import FORMS, Imitation, ImitationOptions
 from hri.robot.imitation.imitate import imitate as make_imitation
@@ -37,7 +35,7 @@ from hri.robot.motion.pulse_csv import write_pulse_csv
 @click.option(
     "--video", type=OutputFile(VIDEO_SUFFIXES, path_type=Path), help="Film the track and the robot side by side."
 )
-@click.option("--json", "json_path", type=OutputFile(path_type=Path), help="Write the report as JSON.")
+@json_option
 def imitate(
     file: Path,
     out: Path,
@@ -47,7 +45,7 @@ def imitate(
     mirrored: bool,
     form: str,
     video: Path | None,
-    json_path: Path | None,
+    json_path: str | None,
 ) -> None:
     """Turn a track of a person's hands, the CSV file FILE, into a motion of the robot's arms.
 
@@ -68,11 +66,10 @@ def imitate(
     made = make_imitation(track, ImitationOptions(form=form, height_px=height_px))
     write_pulse_csv(out, made.trajectory)
     _tell(made, height_px is None)
-    if json_path is not None:
-        write_text(json_path, json.dumps(made.report(), indent=1) + "\n")
+    write_json(json_path, made.report())
     if video is not None:
         film_imitation(track, made, video)
-    click.echo(str(out))
+    say(str(out), json_path)
 
 
 def _chosen(tracks: dict[str, HandTrack], file: Path, name: str | None) -> HandTrack:

@@ -95,7 +95,7 @@ def _model(path: str, embedding_path: str | None) -> dict[str, Any]:
     labels = sorted((str(label) for label in recognizer.classes_), key=natural_key)
     found: dict[str, Any] = {"mode": kind or recognizer.mode, "labels": labels}
     if isinstance(recognizer, WordRecognizer) and recognizer.held_out is not None:
-        found["held_out"] = recognizer.held_out.to_dict()
+        found["held_out"] = {**recognizer.held_out.to_dict(), "labels": list(recognizer.held_out.labels)}
     if isinstance(recognizer, ConnectedWordRecognizer):
         found |= _sentences(recognizer)
     if kind is None:
@@ -138,9 +138,12 @@ def _lines(found: dict[str, Any]) -> list[str]:
             hints = {name: "yes" if there else f"no: pip install libhri[{name}]" for name, there in entry.items()}
             lines += [f"extra {name}\t{hint}" for name, hint in hints.items()]
         elif key == "held_out":
+            lines += [f"{key} {name}\t{_share(value)}" for name, value in entry.items() if not isinstance(value, list)]
             pairs = entry["confused_pairs"]
-            lines += [f"{key} {name}\t{_text(value)}" for name, value in entry.items() if value is not pairs]
-            lines += [f"{key} confused\t{pair['first']} {pair['second']} {pair['rate']}" for pair in pairs]
+            lines += [f"{key} confused\t{pair['first']} {pair['second']} {_share(pair['rate'])}" for pair in pairs]
+            since = [label for label in found["labels"] if label not in entry["labels"]]
+            if since:
+                lines.append(f"{key} is of training, without what was added since\t{' '.join(since)}")
         elif isinstance(entry, dict):
             texts = {name: _joined(value) if isinstance(value, list) else _text(value) for name, value in entry.items()}
             lines += [f"{key} {name}\t{text}" for name, text in texts.items()]
@@ -159,6 +162,10 @@ def _flat(options: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]
             yield from _flat(value, f"{prefix}{name}.")
         else:
             yield f"{prefix}{name}", value
+
+
+def _share(value: Any) -> str:
+    return f"{100 * value:.1f} %" if isinstance(value, float) else str(value)
 
 
 def _text(value: Any) -> str:

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.answers import alternatives
 from hri.cli.groups import CheckedCommand, is_given, refuse_given
 from hri.cli.live_screen import (
     describe_stream,
@@ -80,13 +81,13 @@ def listen(
 ) -> None:
     """Recognise words as they are spoken, from a microphone or from recordings played as a stream.
 
-    On a terminal: level, start and end of speech, and every decision. Otherwise, or with --json, one JSON
+    On a terminal: level, start and end of speech, and every decision. Otherwise, or with --json-lines, one JSON
     object a line.
 
     \b
     Examples:
       hri listen
-      hri listen --model words.hri --json session.wav
+      hri listen --model words.hri --json-lines session.wav
       hri listen --wake robot --min-score 0.5
       hri listen --list-devices
     """
@@ -142,6 +143,5 @@ def describe(event: Event, top: int) -> str:
         return f"{event.time:8.2f} s  listening for a command"
     if event.decision is None:
         return describe_stream(event)
-    best = ", ".join(f"{entry.label} {entry.probability:.3f}" for entry in event.decision.nbest[:top])
     place = f"{event.fields['first_s']:8.2f} - {event.fields['last_s']:.2f} s"
-    return f"{place}  {event.decision.label}  ({best or event.decision.status})"
+    return f"{place}  {event.decision.label}  ({alternatives(event.decision, top)})"

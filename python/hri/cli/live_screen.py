@@ -10,12 +10,13 @@ from os import PathLike
 
 import click
 
+from hri.cli.answers import alternatives
 from hri.cli.messages import note
 from hri.live import CameraSource, Event, FileSource, MicrophoneSource
 from hri.live.visibility import missing_text
 
 device_option = click.option("--device", help="Number or part of the name of the microphone.")
-events_json_option = click.option("--json", "as_json", is_flag=True, help="Write JSON lines also on a terminal.")
+events_json_option = click.option("--json-lines", "as_json", is_flag=True, help="Write JSON lines also on a terminal.")
 stall_option = click.option(
     "--stall",
     "stall_s",
@@ -46,7 +47,7 @@ def recording(path: str | PathLike[str], paced: bool = False) -> FileSource:
 
 
 def report(events: Iterable[Event], as_json: bool, describe: Callable[[Event], str]) -> None:
-    """Every event as a line of JSON; on a terminal, unless --json is given, the level and what `describe` makes
+    """Every event as a line of JSON; on a terminal, unless --json-lines is given, the level and what `describe` makes
     of the others."""
     if as_json or not sys.stdout.isatty():
         for event in events:
@@ -78,8 +79,7 @@ def hand_line(event: Event) -> str:
     if event.event == "signing":
         return f"so far  {' '.join(event.fields['words'])}  {event.time:7.1f} s"
     if event.decision is not None:
-        best = ", ".join(f"{entry.label} {entry.probability:.2f}" for entry in event.decision.nbest[:3])
-        return f"so far  {best or event.decision.status}  {event.time:7.1f} s"
+        return f"so far  {alternatives(event.decision, 3)}  {event.time:7.1f} s"
     fields = event.fields
     if missing := missing_text(fields.get("missing", "")):
         return f"{missing}  {event.time:7.1f} s"

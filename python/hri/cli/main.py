@@ -115,8 +115,9 @@ def hri(verbose: int, quiet: bool, threads: int | None) -> None:
       hri evaluate speech --data spoken/
       hri train --help
 
-    Exit codes: 0 done (also for "unknown"), 1 target not met, 2 wrong usage, 3 bad data, 70 a fault
-    of hri itself, 130 interrupted, 141 the output is no longer read.
+    Exit codes: 0 done (also for "unknown"), 1 target of a study not met, a replay decided otherwise, or the robot fell,
+    2 wrong usage, 3 bad data, 70 a fault of hri itself, 129, 130 and 143 ended by SIGHUP, Ctrl-C or SIGTERM, 141 the
+    output is no longer read. A robot that moves is stopped first.
     """
     if verbose and quiet:
         raise click.UsageError("--verbose and --quiet exclude each other")

@@ -27,6 +27,14 @@ KINDS: dict[str, type[Any]] = {
     "sentences": SentenceRecognizer,
 }
 """What trains a recogniser: ``hri train`` the first two, ``hri train-connected`` and so on the others."""
+CHOSEN_BY_TRAIN = {
+    "speech": {
+        "front_end": "both where the extra embedding is installed",
+        "use_network": "true from three speakers on by cepstra, from ten on with the embedding",
+    },
+    "gesture": {"source": "landmarks where the extra mediapipe finds the hands"},
+}
+"""What ``hri train`` and ``hri evaluate`` take in place of the default where it is not given (`choose_options`)."""
 
 
 @click.command(cls=CheckedCommand)
@@ -35,7 +43,8 @@ KINDS: dict[str, type[Any]] = {
 def options(kind: str, json_path: str | None) -> None:
     """Print what --option takes: every name with its default, the values it may have, and what it does.
 
-    KIND is speech or gesture for 'hri train', and connected, units or sentences for 'hri train-' of this name.
+    KIND is speech or gesture for 'hri train', and connected, units or sentences for 'hri train-' of this name. What
+    'hri train' decides by the recordings and the extras, in place of the default, stands at the end of the line.
 
     \b
     Examples:
@@ -43,10 +52,12 @@ def options(kind: str, json_path: str | None) -> None:
       hri options connected
       hri options gesture --json -
     """
-    fields = list(option_table(type(KINDS[kind]().options)))
+    chosen = CHOSEN_BY_TRAIN.get(kind, {})
+    fields = [{**field, "train": chosen.get(field["name"], "")} for field in option_table(type(KINDS[kind]().options))]
     for field in fields:
         values = f"{field['values']}\t" if field["values"] else "\t"
-        say(f"{field['name']}={field['default']}\t{values}{field['description']}", json_path)
+        train = f"\t'hri train' takes {field['train']}" if field["train"] else ""
+        say(f"{field['name']}={field['default']}\t{values}{field['description']}{train}", json_path)
     write_json(json_path, {"kind": kind, "options": fields})
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from hri.cli.answers import alternatives, confidence_text
 from hri.cli.faces import faces_option, look_for_faces
 from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.messages import note
@@ -142,7 +143,7 @@ def recognise(
     heard = None if words is None else _described(words, said[0], top)
     seen = None if signs is None else _described(signs, shown[0], top)
     decision = fuse(heard, seen, rule=learned or rule)
-    say(f"{decision.label}\t{decision.confidence:.3f}\t{decision.rule}", json_path)
+    say(f"{decision.label}\t{confidence_text(decision)}\t{decision.rule}", json_path)
     answer = None
     try:
         if robot_path is not None or gui:
@@ -197,7 +198,7 @@ def _recognise_each(recognizer: Any, files: list[str], top: int, json_path: str 
             note(f"not recognised: {failures[-1]}")
             rows.append({"file": file, "error": str(error)})
             continue
-        say(f"{file}\t{decision.label}\t{decision.confidence:.3f}", json_path)
+        say(f"{file}\t{decision.label}\t{confidence_text(decision)}", json_path)
         rows.append({"file": file, **decision.to_dict()})
     write_json(json_path, rows)
     if failures:
@@ -207,8 +208,7 @@ def _recognise_each(recognizer: Any, files: list[str], top: int, json_path: str 
 def _described(recognizer: Any, path: str, top: int) -> Decision:
     """What one mode finds in a recording; its alternatives go to standard error."""
     decision: Decision = recognizer.recognise(path)
-    best = ", ".join(f"{entry.label} {entry.probability:.3f}" for entry in decision.nbest[:top])
-    note(f"{decision.mode}: {decision.label} ({best or decision.status}) {path}")
+    note(f"{decision.mode}: {decision.label} ({alternatives(decision, top)}) {path}")
     for text in decision.notes:
         note(f"{decision.mode}: note: {text}")
         if "utterances" in text:

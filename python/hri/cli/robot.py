@@ -11,40 +11,35 @@ from pathlib import Path
 import click
 import numpy as np
 
+from hri.cli.check import check
 from hri.cli.groups import FiniteRange, SuggestingGroup, refuse_given
 from hri.cli.imitate import imitate
 from hri.cli.messages import note
-from hri.cli.output import OutputFile
+from hri.cli.motions import named_motion, require_safe_motion, robot_option
+from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.core.errors import InvalidArgument
 from hri.core.files import write_text
-from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES, kind_of_file
+from hri.media import IMAGE_SUFFIXES, VIDEO_SUFFIXES
 from hri.robot.control.state import MotionLog
 from hri.robot.control.stopping import stopped_by_signals
-from hri.robot.model.joints import HOAP2, NAO, ROBOTS, JointTable
+from hri.robot.model.joints import HOAP2, NAO, JointTable
 from hri.robot.model.postures import POSTURES
 from hri.robot.model.urdf import urdf_text
-from hri.robot.motion.checks import check_pulse_csv, check_trajectory, require_safe
-from hri.robot.motion.gestures import gesture_trajectory, load_gestures
+from hri.robot.motion.checks import require_safe
+from hri.robot.motion.gestures import load_gestures
 from hri.robot.motion.joint_trajectory import SUFFIXES as MESSAGE_SUFFIXES
-from hri.robot.motion.joint_trajectory import read_joint_trajectory, write_joint_trajectory
+from hri.robot.motion.joint_trajectory import write_joint_trajectory
 from hri.robot.motion.plots import plot_trajectory
 from hri.robot.motion.pulse_csv import write_pulse_csv
-from hri.robot.motion.reading import read_motion, require_pulses
-from hri.robot.motion.repair import repair_pulse_csv
 from hri.robot.motion.shaping import slow_to_limits
 from hri.robot.motion.short_csv import (
-    check_short_csv,
-    is_short_csv,
-    require_safe_short_csv,
     write_short_csv,
 )
-from hri.robot.motion.trajectory import Finding, Trajectory
-from hri.robot.nao.gestures import nao_gesture, nao_gesture_trajectory
+from hri.robot.nao.gestures import nao_gesture
 from hri.robot.nao.robot import NaoqiRobot
 from hri.robot.simulation.gallery import write_gallery
 from hri.robot.simulation.run import BACKENDS, open_robot, render_still, render_video
 
-EXIT_BAD_DATA = 3
 EXIT_FELL = 1
 EXIT_SIGNAL = 128  # and the signal's number, as in a shell
 
@@ -54,15 +49,6 @@ _backend = click.option(
     default="pybullet",
     show_default=True,
     help="With physics, or without.",
-)
-_robot = click.option(
-    "--robot",
-    "table",
-    type=click.Choice(tuple(ROBOTS)),
-    default="hoap2",
-    show_default=True,
-    callback=lambda context, option, name: ROBOTS[name],
-    help="NAO makes the gestures with its own arms, and motions in the short form.",
 )
 nao_url_option = click.option("--url", metavar="tcp://HOST", help="A real NAO at this address instead of a simulation.")
 
@@ -78,57 +64,23 @@ def robot() -> None:
     """
 
 
+robot.add_command(check)
 robot.add_command(imitate)
-
-
-@robot.command(short_help="Look over a motion; exit code 3 for errors.")
-@click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
-@click.option(
-    "--repair", "repaired", type=OutputFile((".csv",), path_type=Path), help="Write a repaired pulse CSV file."
-)
-@_robot
-def check(file: Path, repaired: Path | None, table: JointTable) -> None:
-    """Look over FILE, pulses, the short form or a JointTrajectory of ROS 2 (.json, .mcap); tab-separated findings go to
-    stdout, exit code 3 for errors.
-
-    With --repair, cells that hold no count are taken from their neighbours and counts beyond a limit become the limit
-    in a new file; every change is reported on stderr, and the findings are those of the new file.
-
-    \b
-    Example:
-      hri robot check motion.csv
-      hri robot check motion.csv --repair repaired.csv
-    """
-    if repaired is not None:
-        if _is_message(file):
-            raise click.UsageError("--repair is of pulses")
-        if not is_short_csv(file):
-            require_pulses(file, table)
-        for change in repair_pulse_csv(file, repaired):
-            where = f"row {change.row}, column {change.column} ({change.joint})"
-            note(f"{where}: {change.before!r} is now {change.after}: {change.reason}")
-        file = repaired
-    findings = _findings(file, table)
-    for finding in findings:
-        place = (finding.severity, str(finding.row), finding.column, finding.joint)
-        click.echo("\t".join((*place, finding.message)))
-    errors = sum(finding.severity == "error" for finding in findings)
-    note(f"{file}: {errors} errors, {len(findings) - errors} warnings")
-    if errors:
-        sys.exit(EXIT_BAD_DATA)
 
 
 @robot.command(short_help="Draw every joint of a motion against its limits.")
 @click.argument("motion")
 @click.argument("out", type=OutputFile((".png", ".svg", ".pdf"), path_type=Path))
-def plot(motion: str, out: Path) -> None:
+@robot_option
+def plot(motion: str, out: Path, table: JointTable) -> None:
     """Draw every joint of MOTION over time, its limits dashed, as OUT (.png, .svg, .pdf).
 
     \b
     Example:
       hri robot plot namaste namaste.png
+      hri robot plot wave wave.svg --robot nao
     """
-    plot_trajectory(_motion(motion, HOAP2), out)
+    plot_trajectory(named_motion(motion, table), out, table)
     click.echo(str(out))
 
 
@@ -139,7 +91,7 @@ def plot(motion: str, out: Path) -> None:
 @click.option("--stand", is_flag=True, help="Stand on the feet instead of holding the torso.")
 @click.option("--posture", type=click.Choice(POSTURES), default="standing", show_default=True, help="To begin in.")
 @click.option("--log", "log_path", type=OutputFile((".json",), path_type=Path), help="Write states as JSON.")
-@_robot
+@robot_option
 @nao_url_option
 @click.option("--wake-up", is_flag=True, help="Let the real NAO stand up first.")
 @click.option("--rest", is_flag=True, help="Let the real NAO crouch and switch its motors off afterwards.")
@@ -155,7 +107,7 @@ def play(
     wake_up: bool,
     rest: bool,
 ) -> None:
-    """Carry out MOTION, the name of a gesture or a file (.csv, .json, .mcap); print where the joints end.
+    """Carry out MOTION, the name of a gesture or a file (.csv, .tsv, .json, .mcap); print where the joints end.
 
     A robot on its feet begins with the motion's first row, standing or lying; where it ends, and whether it fell (exit
     code 1), is reported on stderr. Ctrl-C or SIGTERM stops the robot, within its limits of speed and acceleration: exit
@@ -174,8 +126,8 @@ def play(
         raise click.UsageError("--wake-up and --rest are of a real NAO: name its --url")
     if url is not None and (gui or stand):
         raise click.UsageError("--gui, --stand and --posture are of a simulation, --url of a real robot")
-    trajectory = _motion(motion, table)
-    _require_safe(trajectory, table, motion)
+    trajectory = named_motion(motion, table)
+    require_safe_motion(trajectory, table, motion)
     idle = [name for name in table.names if name not in trajectory.joint_names] if stand and table is HOAP2 else []
     log = MotionLog()
     with ExitStack() as stack:
@@ -220,11 +172,12 @@ def play(
 @click.option("--fps", type=FiniteRange(1, 120), default=12.0, show_default=True)
 @click.option("--size", type=(int, int), default=(480, 360), show_default=True, help="Pixels.")
 @click.option("--still", type=FiniteRange(0), metavar="SECONDS", help="One picture (.png, .jpg) of this moment.")
-@_robot
+@robot_option
 def render(
     motion: str, out: Path, backend: str, fps: float, size: tuple[int, int], still: float | None, table: JointTable
 ) -> None:
-    """Film MOTION, the name of a gesture or a file (.csv, .json, .mcap), as the video OUT, or take one picture of it.
+    """Film MOTION, the name of a gesture or a file (.csv, .tsv, .json, .mcap), as the video OUT, or take one picture of
+    it.
 
     \b
     Example:
@@ -234,8 +187,8 @@ def render(
     """
     if still is None and out.suffix.lower() in IMAGE_SUFFIXES:
         raise click.UsageError(f"{out} is a picture: say of which moment by --still")
-    trajectory = _motion(motion, table)
-    _require_safe(trajectory, table, motion)
+    trajectory = named_motion(motion, table)
+    require_safe_motion(trajectory, table, motion)
     if still is not None:
         render_still(trajectory, out, still, backend, size, table)
     elif sys.stderr is not None and sys.stderr.isatty():
@@ -255,12 +208,13 @@ def render(
 @click.argument("out", type=OutputFile((".csv", ".tsv", *MESSAGE_SUFFIXES), path_type=Path))
 @click.option("--short", is_flag=True, help="A .csv in degrees with named columns instead of pulses.")
 @click.option("--slow", is_flag=True, help="Slow the whole motion down to the limits of speed and acceleration.")
-@_robot
+@robot_option
 def convert(motion: str, out: Path, short: bool, slow: bool, table: JointTable) -> None:
     """Write MOTION as OUT: pulses with .csv, times and degrees, tab-separated, with .tsv, a JointTrajectory of ROS 2
     with .json (as rosbridge has it) or .mcap (in CDR); the latter only if the check finds no error.
 
-    MOTION is the name of a gesture, a pulse CSV file, one in the short form, or a JointTrajectory (.json, .mcap).
+    MOTION is the name of a gesture, a pulse CSV file, one in the short form, a table (.tsv), or a JointTrajectory
+    (.json, .mcap).
 
     \b
     Example:
@@ -271,7 +225,7 @@ def convert(motion: str, out: Path, short: bool, slow: bool, table: JointTable) 
     """
     if out.suffix.lower() != ".csv":
         refuse_given(("short",), "is a form of .csv")
-    trajectory = _motion(motion, table)
+    trajectory = named_motion(motion, table)
     if slow:
         slower = slow_to_limits(trajectory, table)
         if slower is not trajectory:
@@ -288,14 +242,14 @@ def convert(motion: str, out: Path, short: bool, slow: bool, table: JointTable) 
     elif out.suffix.lower() == ".tsv":
         trajectory.write_tsv(out)
     else:
-        (require_safe if slow else _require_safe)(trajectory, table, motion)
+        (require_safe if slow else require_safe_motion)(trajectory, table, motion)
         write_joint_trajectory(out, trajectory)
     click.echo(str(out))
 
 
 @robot.command(short_help="Write the robot as URDF.")
 @click.argument("out", type=OutputFile(path_type=Path))
-@_robot
+@robot_option
 def urdf(out: Path, table: JointTable) -> None:
     """Write the robot as OUT, a URDF file that ROS reads: joints with axes and limits, masses, simple shapes.
 
@@ -310,8 +264,9 @@ def urdf(out: Path, table: JointTable) -> None:
 
 @robot.command(short_help="List the joints with limits, CSV columns and pulses.")
 @click.option("--markdown", is_flag=True, help="As a table for a Markdown page.")
-@_robot
-def joints(markdown: bool, table: JointTable) -> None:
+@robot_option
+@json_option
+def joints(markdown: bool, table: JointTable, json_path: str | None) -> None:
     """List the joints with limits in degrees, CSV column and pulses per degree.
 
     \b
@@ -319,14 +274,25 @@ def joints(markdown: bool, table: JointTable) -> None:
       hri robot joints --markdown
     """
     rows = [("joint", "meaning", "lower deg", "upper deg", "column", "pulses/deg")]
+    listed = []
     for joint, limits in zip(table.joints, np.degrees(table.limits_rad), strict=True):
         pulses = "" if joint.pulses_per_degree is None else str(joint.pulses_per_degree)
         degrees = (f"{limits[0]:.1f}", f"{limits[1]:.1f}")
         rows.append((joint.name, joint.meaning, *degrees, joint.column, pulses))
+        listed.append(
+            {
+                "joint": joint.name,
+                "meaning": joint.meaning,
+                "limits_deg": limits.tolist(),
+                "column": joint.column,
+                "pulses_per_degree": joint.pulses_per_degree,
+            }
+        )
     if markdown:
         rows.insert(1, ("---",) * 6)
     for row in rows:
-        click.echo(f"| {' | '.join(row)} |" if markdown else "\t".join(row))
+        say(f"| {' | '.join(row)} |" if markdown else "\t".join(row), json_path)
+    write_json(json_path, {"robot": table.name, "joints": listed})
 
 
 @robot.command(short_help="Write a page with pictures of every gesture.")
@@ -347,8 +313,9 @@ def gallery(directory: Path, videos: bool, backend: str) -> None:
 
 
 @robot.command(short_help="List the gestures by name.")
-@_robot
-def gestures(table: JointTable) -> None:
+@robot_option
+@json_option
+def gestures(table: JointTable, json_path: str | None) -> None:
     """List the gestures: name, seconds and what it looks like.
 
     For NAO two more columns: by how many cm a hand is elsewhere than HOAP-2's would be, in proportion to the arm, and
@@ -359,44 +326,15 @@ def gestures(table: JointTable) -> None:
       hri robot gestures
       hri robot gestures --robot nao
     """
+    listed = []
     for gesture in load_gestures().values():
-        if table is HOAP2:
-            click.echo(f"{gesture.name}\t{gesture.times_s[-1]:.1f}\t{gesture.meaning}")
-        else:
+        row: dict[str, str | float] = {"gesture": gesture.name, "duration_s": float(gesture.times_s[-1])}
+        row["meaning"] = gesture.meaning
+        fields = [gesture.meaning]
+        if table is not HOAP2:
             own = nao_gesture(gesture.name)
-            fields = (gesture.name, f"{own.trajectory.duration_s:.1f}", gesture.meaning, f"{100 * own.hand_m:.1f}")
-            click.echo("\t".join((*fields, own.why_not)))
-
-
-def _is_message(path: str | Path) -> bool:
-    return Path(path).suffix.lower() in MESSAGE_SUFFIXES
-
-
-def _is_file(motion: str) -> bool:
-    suffixes = (".csv", *MESSAGE_SUFFIXES)
-    return motion not in load_gestures() and (Path(motion).suffix.lower() in suffixes or Path(motion).is_file())
-
-
-def _findings(file: Path, table: JointTable) -> list[Finding]:
-    if _is_message(file):
-        return check_trajectory(read_joint_trajectory(file), table)
-    if is_short_csv(file):
-        return check_short_csv(file, table)
-    require_pulses(file, table)
-    return check_pulse_csv(file)
-
-
-def _motion(motion: str, table: JointTable) -> Trajectory:
-    kind = kind_of_file(Path(motion)) if motion not in load_gestures() else ""
-    if kind:
-        raise InvalidArgument(f"{motion} is {kind}, and no motion: a gesture's name, or a file .csv, .json or .mcap")
-    if _is_file(motion):
-        return read_motion(motion, table)
-    return gesture_trajectory(motion) if table is HOAP2 else nao_gesture_trajectory(motion)  # errors name the gestures
-
-
-def _require_safe(trajectory: Trajectory, table: JointTable, motion: str) -> None:
-    """As `require_safe`; the short form has rows and columns of its own."""
-    if _is_file(motion) and not _is_message(motion) and is_short_csv(motion):
-        require_safe_short_csv(motion, table)
-    require_safe(trajectory, table, motion)
+            row |= {"duration_s": own.trajectory.duration_s, "hand_m": own.hand_m, "why_not": own.why_not}
+            fields += [f"{100 * own.hand_m:.1f}", own.why_not]
+        listed.append(row)
+        say("\t".join((gesture.name, f"{row['duration_s']:.1f}", *fields)), json_path)
+    write_json(json_path, {"robot": table.name, "gestures": listed})

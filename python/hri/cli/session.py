@@ -71,7 +71,7 @@ def session(
 
     FILE is a sound file, a video, or one of each that began at the same time; without any, microphone and camera are
     used. STOP is heeded at any moment; Ctrl-C stops the robot and ends the session. On a terminal: the state, the
-    level, decisions and why; otherwise, or with --json, one JSON object a line.
+    level, decisions and why; otherwise, or with --json-lines, one JSON object a line.
 
     \b
     Examples:
@@ -83,7 +83,7 @@ def session(
       hri session --gesture-model sentences.hri --no-speech --knowledge sentences.csv
       hri session --motions examples/motions/commands.toml
       hri session --grammar robot.jsgf --stand --gui --no-gesture
-      hri session --backend kinematic --json words.wav signs.mp4
+      hri session --backend kinematic --json-lines words.wav signs.mp4
       hri session --replay class.mcap
       hri session --robot nao --url tcp://nao.local --camera nao --microphone nao
     """
@@ -164,7 +164,8 @@ def _replay(path: Path, chosen: ChosenSession, as_json: bool) -> None:
     compared = _Compared(recording.events())
 
     def kept() -> Any:
-        for event in replay(recording, words, signs, learned, stored, faces=chosen.person_finder()):
+        models = chosen.model_ids
+        for event in replay(recording, words, signs, learned, stored, faces=chosen.person_finder(), model_ids=models):
             compared.see(event.to_dict())
             yield event
 

@@ -6,11 +6,13 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import click
 
 from hri.cli.live_screen import describe_stream, hand_line, meter
 from hri.live import Event
+from hri.recognition.decision import RECOGNISED
 
 EXIT_NOT_READ = 141
 """As a shell has it for a program that ends by SIGPIPE."""
@@ -91,12 +93,17 @@ class _Screen:
         self._live.update(Text("\n".join(filter(None, shown))))
 
 
+def _confidence(found: dict[str, Any]) -> str:
+    """Of what was recognised; that of a rejected one is the nearest label's."""
+    return f" {found['confidence']:.2f}" if found["status"] == RECOGNISED else ""
+
+
 def describe(event: Event) -> str:
     """One line for people; "" for what they need not read."""
     fields, at = event.fields, f"{event.time:8.2f} s  "
     if event.event == "fused":
         modes = " + ".join(
-            f"{name} {fields[mode]['label']} {fields[mode]['confidence']:.2f}"
+            f"{name} {fields[mode]['label']}{_confidence(fields[mode])}"
             for mode, name in (("speech", "word"), ("gesture", "sign"))
             if fields[mode]
         )

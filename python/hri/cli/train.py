@@ -34,6 +34,7 @@ from hri.cli.recognizers import (
     pattern_option,
     recognizer_factory,
 )
+from hri.cli.train_checks import check_recordings
 from hri.datasets import Dataset
 from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer
 from hri.training import fillers_of
@@ -121,13 +122,14 @@ def train(
         faces=faces,
     )
     dataset = load_dataset(data, mode, pattern)
+    path = default_model(mode) if out is None else Path(out)
+    check_recordings(dataset, path if out is None else None)
     options, why_source = chosen_options(options, dataset)
     untrained = recognizer_factory(mode, options, seed)()
     embedding = embedding_for(untrained, embedding_path)
     others: list[FillerWord] | None = [] if no_fillers else None
     if fillers is not None:
         others = fillers_of(load_dataset(fillers, mode, None))
-    path = default_model(mode) if out is None else Path(out)
     path.parent.mkdir(parents=True, exist_ok=True)
     if isinstance(untrained, GestureRecognizer):
         untrained.faces = faces

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import click
 
+from hri.cli.answers import alternatives
 from hri.cli.faces import faces_option, look_for_faces
 from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.live_screen import camera, camera_option, describe_stream, events_json_option, report, stall_option
@@ -73,13 +74,13 @@ def watch(
 
     With a model from 'hri train-sentences' signs follow on one another in sentences, which end as the hands rest.
 
-    On a terminal: where the hand is, gesture segments, and decisions. Otherwise, or with --json, one JSON object a
-    line.
+    On a terminal: where the hand is, gesture segments, and decisions. Otherwise, or with --json-lines, one JSON object
+    a line.
 
     \b
     Examples:
       hri watch
-      hri watch --model signs.hri --json session.mp4
+      hri watch --model signs.hri --json-lines session.mp4
       hri watch --device 1 --video seen.mp4
     """
     if video_path is not None and len(files) > 1:
@@ -116,6 +117,5 @@ def describe(event: Event, top: int) -> str:
         return f"{event.fields['first_s']:8.2f} - {event.fields['last_s']:.2f} s  {' '.join(event.fields['words'])}"
     if event.event != "decision" or event.decision is None:
         return describe_stream(event)
-    best = ", ".join(f"{entry.label} {entry.probability:.3f}" for entry in event.decision.nbest[:top])
     place = f"{event.fields['first_s']:8.2f} - {event.fields['last_s']:.2f} s"
-    return f"{place}  {event.decision.label}  ({best or event.decision.status})"
+    return f"{place}  {event.decision.label}  ({alternatives(event.decision, top)})"

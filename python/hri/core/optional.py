@@ -5,8 +5,12 @@
 from __future__ import annotations
 
 import os
+import sys
+from contextlib import nullcontext
 from importlib import import_module
 from typing import Any
+
+from hri.core.quiet import silent_stderr
 
 
 def import_optional(module: str, extra: str, purpose: str) -> Any:
@@ -25,6 +29,12 @@ def import_optional(module: str, extra: str, purpose: str) -> Any:
         return import_module(module)
     except ImportError as error:
         raise ImportError(f"{module} is needed {purpose}: pip install libhri[{extra}] ({error})") from error
+
+
+def import_pybullet() -> Any:
+    """Import PyBullet without the time of its build, which it prints on stderr the first time."""
+    with nullcontext() if "pybullet" in sys.modules else silent_stderr():
+        return import_optional("pybullet", "robot", "to simulate the robot")
 
 
 def import_opencv(purpose: str) -> Any:

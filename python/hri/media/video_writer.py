@@ -4,10 +4,8 @@
 
 from __future__ import annotations
 
-import os
-import sys
-from collections.abc import Iterable, Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Iterable
+from contextlib import ExitStack, nullcontext
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -17,6 +15,7 @@ import numpy as np
 from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.core.files import AtomicFile, utf8_name
 from hri.core.optional import import_opencv
+from hri.core.quiet import silent_stderr
 from hri.media.video import Frame, open_video
 
 _CODECS = {
@@ -145,7 +144,8 @@ class VideoWriter:
         suffix = self.path.suffix.lower()
         fourcc = self._cv2.VideoWriter_fourcc(*_CODECS[suffix])
         name = self._name.enter_context(utf8_name(self._file.temporary_path))
-        with _silent_stderr(suffix == ".webm"):
+        # OpenCV prints a remark about every WebM file, whatever its log level, that means nothing.
+        with silent_stderr() if suffix == ".webm" else nullcontext():
             writer = self._cv2.VideoWriter(name, fourcc, self._fps, self._even_size())
         if not writer.isOpened():
             raise IoError(f"{self.path}: this OpenCV cannot write {self.path.suffix} video here")
@@ -197,21 +197,3 @@ def _require_frame(frame: Frame, shape: tuple[int, ...], index: int) -> None:
             f"frame {index} has shape {frame.shape} and type {frame.dtype}, "
             f"expected uint8 of shape (height, width, 3), all alike; frame 0 has {shape}"
         )
-
-
-@contextmanager
-def _silent_stderr(wanted: bool) -> Iterator[None]:
-    """OpenCV prints a remark about every WebM file, whatever its log level, that means nothing."""
-    if not wanted:
-        yield
-        return
-    sys.stderr.flush()
-    kept = os.dup(2)
-    sink = os.open(os.devnull, os.O_WRONLY)
-    try:
-        os.dup2(sink, 2)
-        yield
-    finally:
-        os.dup2(kept, 2)
-        os.close(kept)
-        os.close(sink)

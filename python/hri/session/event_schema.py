@@ -29,7 +29,11 @@ _ENTRY = {
 _OF_ONE_MODE = {
     "type": ["object", "null"],
     "description": "What this mode brought; null where nothing",
-    "properties": {"label": _TEXT, "status": _TEXT, "confidence": _NUMBER},
+    "properties": {
+        "label": _of("string", "The label; status again unless it is recognised"),
+        "status": _TEXT,
+        "confidence": _NUMBER,
+    },
     "required": ["label", "status", "confidence"],
 }
 _FIELDS: dict[str, Schema] = {
@@ -40,11 +44,11 @@ _FIELDS: dict[str, Schema] = {
     "command": _of("string", "Which", enum=["stop", "resume", "imitate", "rest", "only_stop"]),
     "completed": _of("boolean", "The motion was carried out to its end"),
     "compute_ms": _of("number", "The computer's time in milliseconds, without waiting"),
-    "confidence": _of("number", "Calibrated probability of the label, 0 to 1"),
+    "confidence": _of("number", "Calibrated probability of the best label, 0 to 1, also where it is rejected"),
     "cut": _of("boolean", "It went on for too long and was cut off"),
     "distance": {"type": ["number", "null"], "description": "To the nearest stored sentence, 0 to 1; null without one"},
     "fault": _of("boolean", "The robot takes no commands"),
-    "final": _of("string", "The label; empty unless recognised"),
+    "final": _of("string", "The label to act on; empty unless status is recognised"),
     "first_s": _of("number", "When it began, in seconds of the session's time"),
     "for_s": _of("number", "How long nothing but STOP counts, in seconds"),
     "fps": _of("number", "Pictures a second that the source says it gives"),

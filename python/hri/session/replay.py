@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -65,6 +65,7 @@ def replay(
     *,
     hands: HandFrames | None = None,
     faces: Faces | None = None,
+    model_ids: Mapping[str, str] | None = None,
 ) -> Iterator[Event]:
     """The events of a recorded session, recognised and decided on anew; no robot moves.
 
@@ -82,6 +83,8 @@ def replay(
     hands : HandFrames, optional
     faces : FaceFinder, optional
         As of `Session`, both.
+    model_ids : mapping of mode to str, optional
+        Names of the models that are given, which their events carry; without it those of the recording.
 
     Raises
     ------
@@ -91,6 +94,7 @@ def replay(
         For what is damaged, when it is reached; samples and pictures that cannot be decoded end their mode.
     """
     feeds: dict[str, Feed[Any]] = {}
+    ids = recording.models if model_ids is None else model_ids
     needed = (("fusion", fusion, "a learned fusion", "it"), ("knowledge", knowledge, "stored sentences", "them"))
     for name, present, what, them in needed:
         if (present is None) != (name not in recording.models):
@@ -102,7 +106,7 @@ def replay(
             raise InvalidArgument(f"{recording.path}: sound was recorded, and needs a recogniser of words")
         endpointer = None if recording.endpointer is None else EndpointerOptions(**recording.endpointer)
         stops = recording.options.fusion.stop_labels
-        heard = Listener(words, endpointer, model_id=recording.models.get("speech", ""), urgent=stops)
+        heard = Listener(words, endpointer, model_id=ids.get("speech", ""), urgent=stops)
         feeds["speech"] = Feed("speech", sound, heard.listen)
     if pictures:
         if signs is None:
@@ -110,7 +114,7 @@ def replay(
         segmenter = (
             None if recording.segmenter is None else _segmenter_of(recording, isinstance(signs, SentenceRecognizer))
         )
-        seen = watcher_of(signs, segmenter, hands, faces, recording.models.get("gesture", ""))
+        seen = watcher_of(signs, segmenter, hands, faces, ids.get("gesture", ""))
         feeds["gesture"] = Feed("gesture", pictures, seen.watch)
     logic = SessionLogic(
         recording.options,

@@ -15,11 +15,11 @@ from hri.robot.motion.pulse_csv import read_pulse_csv
 from hri.robot.motion.short_csv import is_short_csv, read_short_csv
 from hri.robot.motion.trajectory import Trajectory
 
-MOTION_SUFFIXES = (".csv", *MESSAGE_SUFFIXES)
+MOTION_SUFFIXES = (".csv", ".tsv", *MESSAGE_SUFFIXES)
 
 
 def read_motion(path: str | PathLike[str], table: JointTable = HOAP2) -> Trajectory:
-    """Read a motion of a robot: pulses or the short form (.csv), or a message of ROS (.json, .mcap).
+    """Read a motion of a robot: pulses or the short form (.csv, .tsv), or a message of ROS (.json, .mcap).
 
     It is read, and not checked: `require_safe` does that.
 

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The short form of a motion, made for people: named columns, degrees, one row a sample, "#" before remarks.
 
-The header is ``time_s`` and names of joints; only joints that move need a column.
+The header is ``time_s`` and names of joints; only joints that move need a column. Tabs may stand for the commas, and
+``_deg`` behind the names of joints, as `Trajectory.write_tsv` writes them.
 """
 
 from __future__ import annotations
@@ -77,11 +78,14 @@ def _read(path: str | PathLike[str], table: JointTable) -> tuple[Trajectory, lis
     """The motion, and the line of the file that each row of it stands in."""
     lines = split_lines(read_bytes(path).decode("utf-8-sig", errors="replace"))
     numbered = [(row, line) for row, line in enumerate(lines, start=1) if line.strip() and not line.startswith("#")]
-    header = [cell.strip() for cell in numbered[0][1].split(",")] if numbered else []
+    separator = _separator(numbered[0][1]) if numbered else ","
+    header = [cell.strip() for cell in numbered[0][1].split(separator)] if numbered else []
+    if separator == "\t":
+        header = [name.removesuffix("_deg") for name in header]
     findings = _header_faults(numbered[0][0] if numbered else 1, header, table)
     values: list[list[float]] = []
     for row, line in numbered[1:] if not findings else []:
-        cells = line.split(",")
+        cells = line.split(separator)
         if len(cells) != len(header):
             message = f"has {len(cells)} columns, the header has {len(header)}"
             findings.append(Finding(row, "", "", str(len(cells)), message))
@@ -129,7 +133,11 @@ def is_short_csv(path: str | PathLike[str]) -> bool:
     """Whether a file's first line that is no remark begins with ``time_s``."""
     lines = split_lines(read_bytes(path)[:_HEAD_BYTES].decode("utf-8-sig", errors="replace"))
     first = next((line for line in lines if line.strip() and not line.startswith("#")), "")
-    return first.split(",")[0].strip() == "time_s"
+    return first.split(_separator(first))[0].strip() == "time_s"
+
+
+def _separator(header: str) -> str:
+    return "\t" if "\t" in header and "," not in header else ","
 
 
 def _header_faults(row: int, header: list[str], table: JointTable) -> list[Finding]:

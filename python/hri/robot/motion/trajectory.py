@@ -85,11 +85,11 @@ class Trajectory:
         return positions + part * self.positions_rad[np.minimum(row + 1, len(self) - 1)]
 
     def write_tsv(self, path: str | PathLike[str]) -> None:
-        """Write a table with a header: seconds, then degrees of each joint; IoError if it fails."""
+        """Write a table for `read_short_csv`: a header, then seconds and degrees of each joint; IoError if it fails."""
         lines = ["\t".join(("time_s", *(f"{name}_deg" for name in self.joint_names)))]
         for row, degrees in enumerate(np.degrees(self.positions_rad).tolist()):
             cells = (f"{value:.4f}" for value in degrees)
-            lines.append("\t".join((f"{row * self.period_s:.6g}", *cells)))
+            lines.append("\t".join((f"{row * self.period_s:.9g}", *cells)))
         write_text(path, "\n".join(lines) + "\n")
 
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from hri.core.errors import Error, InvalidArgument
 from hri.core.files import write_text
-from hri.core.optional import import_optional
+from hri.core.optional import import_pybullet
 from hri.robot.control.backend import Robot
 from hri.robot.control.balance import Balance
 from hri.robot.control.filming import Image
@@ -75,7 +75,7 @@ class PyBulletRobot(Robot):
         self._physics = physics or Physics()
         for name in (*locked, *self._physics.joint_offsets_rad):
             table.index(name)
-        self._bullet = import_optional("pybullet", "robot", "to simulate the robot")
+        self._bullet = import_pybullet()
         if gui and sys.platform == "linux" and not os.environ.get("DISPLAY"):
             raise InvalidArgument("there is no display for the robot's window: DISPLAY is not set")  # else it exits
         self._client = self._bullet.connect(self._bullet.GUI if gui else self._bullet.DIRECT)
