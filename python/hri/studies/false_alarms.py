@@ -54,11 +54,11 @@ LIMITS_BOTH = {"plain": (5.0, 0.0, 20.0), "wake word": (10.0, 0.0, 0.5)}
 Samples = NDArray[np.float32]
 OTHER_WORDS = {
     "fsdd": ("hindi-digits", "hindi-words"),
-    "hindi-digits": ("fsdd",),
-    "hindi-words": ("fsdd",),
+    "hindi-digits": ("fsdd", "hindi-words"),
+    "hindi-words": ("fsdd", "hindi-digits"),
 }
-"""By vocabulary: what other people say. The two Hindi sets do not know each other's speakers: people of one may be
-among those of the other under another name, so neither is the other's."""
+"""By vocabulary: what else people say. Who is trained on is left out by name, which in the two Hindi sets may be that of
+another person: who was trained on may then speak in the other set under another name."""
 
 
 @dataclass(frozen=True)
@@ -256,7 +256,13 @@ def _fold(
     commands = [c for s, c in zip(own, clips, strict=True) if s.label != wake]
     pairs = compose_pairs(wakes, [commands[i] for i in rng.permutation(len(commands))], rate, rng)
     unseen = [_clip(s, rate) for s in mine if s.label not in half]
-    foreign = [s for other in OTHER_WORDS[name] for s in Dataset.load(data_dir / WORD_FOLDERS[other], "speech").samples]
+    people = {s.person for s in train}
+    foreign = [
+        s
+        for other in OTHER_WORDS[name]
+        for s in Dataset.load(data_dir / WORD_FOLDERS[other], "speech").samples
+        if s.person not in people
+    ]
     # As many as an hour may hold; the rest need not be read.
     others = [_clip(foreign[i], rate) for i in rng.permutation(len(foreign))[: SESSIONS * SESSION_S // 3]]
     size = SESSION_S * rate
