@@ -31,7 +31,6 @@ from hri.live import (
 from hri.media import read_frames, write_video
 
 cv2 = pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
 
 
 @pytest.fixture(scope="module")
