@@ -17,12 +17,41 @@ sanitized_tests=(cepstra.py codebook.py signal.py wavelet_packets.py spectrogram
   models.py)
 mkdir -p "$logs"
 
+# tests_in PROGRAM: Suite.Test of each, a line each.
+tests_in() {
+  GTEST_FILTER='*' "$1" --gtest_list_tests | sed 's/ *#.*//' |
+    while IFS= read -r line; do
+      case $line in
+        '  '*) printf '%s%s\n' "$suite" "${line#  }" ;;
+        *.) suite=$line ;;
+      esac
+    done
+}
+
+# check_filter PROGRAM...: every pattern that GTEST_FILTER leaves out must stand for a test, or it has been renamed.
+check_filter() {
+  local programs=("$@") names=() patterns=() pattern name found stale=0
+  for program in "${programs[@]}"; do mapfile -t -O "${#names[@]}" names < <(tests_in "$program"); done
+  IFS=: read -ra patterns <<<"${GTEST_FILTER#-}"
+  for pattern in ${patterns[@]+"${patterns[@]}"}; do
+    found=0
+    for name in "${names[@]}"; do
+      # shellcheck disable=SC2053 # a pattern, as GoogleTest has it
+      [[ $name == $pattern ]] && { found=1; break; }
+    done
+    ((found)) || { echo "GTEST_FILTER: $pattern stands for no test" >&2; stale=1; }
+  done
+  return "$stale"
+}
+
 # tests_of NAME TARGET...: builds test programs and runs them, each in two halves side by side.
 tests_of() {
   local name=$1 halves
   shift
   cmake --build "build/$name" --target "$@"
+  [[ -z ${GTEST_FILTER:-} ]] || check_filter "${@/#/build/$name/tests/cpp/}"
   for target in "$@"; do
+    [[ -n $(tests_in "build/$name/tests/cpp/$target") ]] || { echo "$target has no tests" >&2; return 1; }
     halves=()
     for half in 0 1; do
       GTEST_TOTAL_SHARDS=2 GTEST_SHARD_INDEX=$half \
@@ -76,6 +105,7 @@ check_tsan() {
   local consumer=build/tsan/consumer
   cmake --preset tsan -DHRI_BUILD_VISION=OFF -DBUILD_SHARED_LIBS=ON
   cmake --build build/tsan --target thread_tests hri_core
+  [[ $(tests_in build/tsan/tests/cpp/thread_tests) == *Thread* ]] || { echo "no tests of threads" >&2; return 1; }
   build/tsan/tests/cpp/thread_tests --gtest_brief=1 --gtest_filter='*Thread*'
   # Shared libraries take a build of their own, and this one is no slower for them.
   tools/check_exports.sh build/tsan

@@ -22,19 +22,23 @@ if [[ $target != all ]]; then
   targets=("$target")
 fi
 
+for name in "${targets[@]}"; do
+  compgen -G "tests/fuzz/seeds/$name/*" >/dev/null ||
+    { echo "$name has no seeds: without an input that is read as it should be, nothing behind the reader is reached" >&2; exit 1; }
+done
+
 mkdir -p build/fuzz
 { cmake --preset asan && cmake --build build/asan --target "${targets[@]}"; } >build/fuzz/build.log 2>&1 ||
   { tail -40 build/fuzz/build.log >&2; exit 1; }
 
 # look_for NAME: with one target, for so many seconds.
 look_for() {
-  local name=$1 seeds=()
+  local name=$1 seeds=("tests/fuzz/seeds/$1")
   mkdir -p "build/fuzz/corpus/$name" build/fuzz/findings
-  [[ -d tests/fuzz/seeds/$name ]] && seeds+=("tests/fuzz/seeds/$name")
   [[ $name == model_fuzz ]] && seeds+=(tests/py/models_v1 tests/py/models_v2)
   if "build/asan/tests/fuzz/$name" -max_total_time="$seconds" -timeout="$max_seconds" -rss_limit_mb="$max_megabytes" \
     -malloc_limit_mb="$max_block_megabytes" -max_len=65536 -print_final_stats=1 -artifact_prefix="build/fuzz/findings/$name-" \
-    "build/fuzz/corpus/$name" ${seeds[@]+"${seeds[@]}"} >"build/fuzz/$name.log" 2>&1; then
+    "build/fuzz/corpus/$name" "${seeds[@]}" >"build/fuzz/$name.log" 2>&1; then
     printf '%s: %s executions in %s s, nothing found\n' "$name" \
       "$(sed -n 's/^stat::number_of_executed_units: *//p' "build/fuzz/$name.log")" "$seconds"
   else

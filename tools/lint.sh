@@ -23,7 +23,7 @@ step() {
   "$@" || failed+=("$name")
 }
 
-mapfile -t cpp_files < <(find cpp bindings tests/cpp examples -name '*.cpp' -o -name '*.hpp' | sort)
+mapfile -t cpp_files < <(find cpp bindings tests/cpp tests/fuzz examples -name '*.cpp' -o -name '*.hpp' | sort)
 python_dirs=(python tests/py benchmarks tools)
 
 if ((fix)); then
@@ -40,15 +40,18 @@ step "stubs are up to date" "$python" tools/generate_stubs.py --check
 step "tables and results are up to date" "$python" tools/generate_tables.py --check
 step "tables of options are up to date" "$python" tools/generate_option_tables.py --check
 step shellcheck shellcheck run tools/*.sh .ci/run
-# Only findings; the commands and counts of suppressed warnings are noise.
+# Only findings; the commands and counts of suppressed warnings are noise, unless it fails to start.
 # The files of a folder are read as one, which takes a fifth of the time: most of it goes to Eigen's and pybind11's headers.
 tidy() {
   cmake -S . -B build/tidy -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DHRI_BUILD_PYTHON=ON \
     -DHRI_UNITY_BUILD=ON -DPython_EXECUTABLE="$PWD/$python" -Dpybind11_DIR="$("$python" -m pybind11 --cmakedir)" \
     >build/tidy.log || return
+  local status=0
   "$python" .venv/bin/run-clang-tidy.py -clang-tidy-binary .venv/bin/clang-tidy -quiet -hide-progress -p build/tidy \
     -checks="$checks,-bugprone-suspicious-include" \
-    -extra-arg=-Wno-ignored-optimization-argument -j "$(nproc)" "$PWD/(build/tidy|cpp/src|bindings)/.*\.c(pp|xx)$" 2>/dev/null
+    -extra-arg=-Wno-ignored-optimization-argument -j "$(nproc)" "$PWD/(build/tidy|cpp/src|bindings)/.*\.c(pp|xx)$" 2>build/tidy.errors || status=$?
+  ((status == 0)) || tail -40 build/tidy.errors >&2
+  return "$status"
 }
 step clang-tidy tidy
 

@@ -2,13 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Any model file: what loads must decide, within memory and time, and what it decides are numbers.
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "fuzzing.hpp"
+#include "hri/htk/embedded_trainer.hpp"
 #include "hri/io/model_file.hpp"
 #include "hri/models/classifiers/distance_classifier.hpp"
 #include "hri/models/classifiers/gaussian_bayes.hpp"
@@ -26,6 +32,7 @@
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 #include "hri/recognition/sentence/connected_word_recognizer.hpp"
 #include "hri/recognition/sentence/sentence_recognizer.hpp"
+#include "hri/recognition/subword/subword_recognizer.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
 #include "model_bytes.hpp"
 
@@ -62,12 +69,62 @@ MatrixF rows(Eigen::Index count, int dim) {
   return m;
 }
 
+// Ends the program where what was found of finite input is no number; -inf is one.
+void check_numbers(double value) {
+  if (std::isnan(value)) std::abort();
+}
+template <class Derived>
+void check_numbers(const Eigen::MatrixBase<Derived>& values) {
+  if (values.hasNaN()) std::abort();
+}
+
+// Reads a classifier, and decides on a row.
+template <class Classifier>
+void decide(const ModelFile& file) {
+  const auto classifier = Classifier::read(file, kPrefix);
+  const MatrixF row = rows(1, classifier.dim());
+  check_numbers(
+      classifier.decision_values({row.data(), static_cast<std::size_t>(classifier.dim())}));
+}
+
+struct TemporaryFile {
+  std::string path =
+      (std::filesystem::temp_directory_path() / "model_fuzz.").string() + std::to_string(getpid());
+  ~TemporaryFile() { std::remove(path.c_str()); }
+};
+
+// Sums of embedded training are read from a path, for models of their own.
+void add_sums(const ModelFile& file) {
+  static const hri::htk::ModelSet models = [] {
+    hri::htk::ModelSet set;
+    set.parse(
+        "~h a <BEGINHMM> <NUMSTATES> 3 <STATE> 2 <MEAN> 1 0.5 <VARIANCE> 1 2 <TRANSP> 3 0 1 0 0 "
+        "0.5 0.5 0 0 0 <ENDHMM>",
+        "models");
+    return set;
+  }();
+  static const TemporaryFile kept;
+  hri::htk::EmbeddedTrainer trainer(models);
+  file.write(kept.path);
+  trainer.add_sums(kept.path);
+  check_numbers(trainer.log_likelihood());
+  // What was estimated can be written and read.
+  hri::htk::ModelSet again;
+  again.parse(trainer.estimate().to_text(), "again");
+}
+
 void use(const ModelFile& file) {
   const std::string kind = file.kind();
   if (kind == "word_recognizer") {
     static const std::vector<float> kTone = tone();
     const auto words = hri::WordRecognizer::from_model_file(file);
     hri::fuzzing::check(words.recognise({kTone.data(), kTone.size()}, 8000));
+  } else if (kind == "subword_recognizer") {
+    static const std::vector<float> kTone = tone();
+    const auto words = hri::SubwordRecognizer::from_model_file(file);
+    hri::fuzzing::check(words.recognise({kTone.data(), kTone.size()}, 8000));
+  } else if (kind == "htk_embedded_sums") {
+    add_sums(file);
   } else if (kind == "gesture_recognizer") {
     const auto gestures = hri::GestureRecognizer::from_model_file(file);
     for (const Eigen::Index n : {1, 30}) {
@@ -100,34 +157,42 @@ void use(const ModelFile& file) {
     if (book.dim() < 4096) static_cast<void>(book.quantise(rows(5, book.dim())));
   } else if (kind == "pca") {
     const auto pca = hri::Pca::read(file, kPrefix);
-    static_cast<void>(pca.transform(rows(5, pca.dim())));
+    check_numbers(pca.transform(rows(5, pca.dim())));
   } else if (kind == "lda") {
     const auto lda = hri::Lda::read(file, kPrefix);
-    static_cast<void>(lda.transform(rows(5, lda.dim())));
+    check_numbers(lda.transform(rows(5, lda.dim())));
   } else if (kind == "gaussian_mixture_hmm") {
     const auto hmm = hri::GaussianMixtureHmm::read(file, kPrefix);
-    static_cast<void>(hmm.log_likelihood(rows(9, hmm.dim())));
+    check_numbers(hmm.log_likelihood(rows(9, hmm.dim())));
   } else if (kind == "discrete_hmm") {
     const auto hmm = hri::DiscreteHmm::read(file, kPrefix);
     const std::vector<std::int32_t> symbols = {0, 1, 1, 0, 2};
-    static_cast<void>(hmm.log_likelihood({symbols.data(), symbols.size()}));
+    check_numbers(hmm.log_likelihood({symbols.data(), symbols.size()}));
   } else if (kind == "gaussian_mixture") {
     const auto mixture = hri::GaussianMixture::read(file, kPrefix);
-    static_cast<void>(mixture.log_likelihood(rows(9, mixture.dim())));
+    check_numbers(mixture.log_likelihood(rows(9, mixture.dim())));
   } else if (kind == "possibilistic_hmm_set") {
-    static_cast<void>(hri::PossibilisticHmmSet::read(file, kPrefix));
+    const auto set = hri::PossibilisticHmmSet::read(file, kPrefix);
+    const std::vector<std::int32_t> symbols = {0, 1, 1, 0, 2};
+    check_numbers(set.log_possibilities({symbols.data(), symbols.size()}));
   } else if (kind == "possibilistic_gaussian_hmm_set") {
-    static_cast<void>(hri::PossibilisticGaussianHmmSet::read(file, kPrefix));
+    const auto set = hri::PossibilisticGaussianHmmSet::read(file, kPrefix);
+    check_numbers(set.log_possibilities(rows(9, set.dim())));
   } else {
     // The rest are read one after the other; what does not fit is refused.
     using hri::fuzzing::expect_typed_errors;
-    expect_typed_errors([&] { hri::Knn::read(file, kPrefix); });
-    expect_typed_errors([&] { hri::LinearSvm::read(file, kPrefix); });
-    expect_typed_errors([&] { hri::RbfClassifier::read(file, kPrefix); });
-    expect_typed_errors([&] { hri::GaussianBayes::read(file, kPrefix); });
-    expect_typed_errors([&] { hri::DistanceClassifier::read(file, kPrefix); });
-    expect_typed_errors([&] { hri::PossibilityClassifier::read(file, kPrefix); });
-    expect_typed_errors([&] { hri::MarkovChain::read(file, kPrefix); });
+    expect_typed_errors([&] { decide<hri::Knn>(file); });
+    expect_typed_errors([&] { decide<hri::LinearSvm>(file); });
+    expect_typed_errors([&] { decide<hri::RbfClassifier>(file); });
+    expect_typed_errors([&] { decide<hri::GaussianBayes>(file); });
+    expect_typed_errors([&] { decide<hri::DistanceClassifier>(file); });
+    expect_typed_errors([&] { decide<hri::PossibilityClassifier>(file); });
+    expect_typed_errors([&] {
+      const auto chain = hri::MarkovChain::read(file, kPrefix);
+      check_numbers(chain.start());
+      check_numbers(chain.transition());
+      check_numbers(chain.smallest_probability());
+    });
   }
 }
 

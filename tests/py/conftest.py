@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import time
 from collections.abc import Callable, Iterator
@@ -24,6 +25,10 @@ pytest.register_assert_rewrite("serving", "browsing")  # plugins of some test fi
 RATE_HZ = 16000
 WAIT_S = 60.0
 """For what another thread does: also on a machine that is much slower than usual, where any thread may be late."""
+NO_SKIPS = "HRI_NO_SKIPS"
+"""Set where everything that `./run test` installs is there: what is skipped then fails, or it would go unseen."""
+MAY_BE_MISSING = re.compile(r"HRI_(ROBOT_)?DATA |no photos|julius|no cascade|opencv-data|import 'qi'|this libsndfile")
+"""Reasons to skip all the same: recordings, foreign programs, wheels and formats that not every system has."""
 PERSONS = {"low": 500.0, "middle": 550.0, "high": 600.0}
 
 
@@ -105,6 +110,28 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if item.get_closest_marker("data"):
             item.add_marker(pytest.mark.skip(reason="HRI_DATA names no folder of recordings"))
+
+
+def no_skip(report: pytest.CollectReport | pytest.TestReport) -> None:
+    """What is skipped for another reason than those that are listed fails, where `NO_SKIPS` is set."""
+    if not os.environ.get(NO_SKIPS) or not report.skipped or hasattr(report, "wasxfail"):
+        return
+    reason = report.longrepr[2] if isinstance(report.longrepr, tuple) else str(report.longrepr)
+    if not MAY_BE_MISSING.search(reason):
+        report.outcome = "failed"
+        report.longrepr = f"{report.nodeid}: {NO_SKIPS} is set. {reason}"
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_makereport() -> Iterator[None]:
+    outcome = yield
+    no_skip(outcome.get_result())
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_make_collect_report() -> Iterator[None]:
+    outcome = yield
+    no_skip(outcome.get_result())
 
 
 def robot_data(name: str) -> Path:

@@ -15,7 +15,6 @@ from typing import Any
 import pytest
 
 pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
 pytest.importorskip("starlette")
 pytest.importorskip("uvicorn")
 pytest.importorskip("websockets")

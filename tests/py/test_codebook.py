@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from conftest import WAIT_S
 from hri import _native
 from hri.core.errors import FormatError, InvalidArgument
 
@@ -132,7 +133,7 @@ def test_an_interrupt_ends_the_training(method: str) -> None:
             train()
     finally:
         timer.join()
-    assert time.monotonic() - start < 10
+    assert time.monotonic() - start < WAIT_S
 
 
 def test_threads_share_a_codebook() -> None:

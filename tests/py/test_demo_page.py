@@ -16,7 +16,6 @@ import numpy as np
 import pytest
 
 pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
 pytest.importorskip("matplotlib")
 
 import hri

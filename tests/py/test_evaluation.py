@@ -184,6 +184,15 @@ def test_noise_has_the_ratio_asked_for(name: str, snr_db: float) -> None:
     assert 10 * np.log10(ratio) == pytest.approx(snr_db, abs=1e-3)
 
 
+@pytest.mark.parametrize(("below_db", "counts"), [(13.0, True), (15.5, True), (16.3, False)])
+def test_what_lies_15_9_db_below_the_active_level_is_a_pause(below_db: float, counts: bool) -> None:
+    """ITU-T P.56, method B. Half of it is a signal of power 1, the other half lies so far below the level of both."""
+    ratio = 10 ** (-below_db / 10)
+    soft = 0.5 * ratio / (1 - 0.5 * ratio)
+    samples = np.sqrt(np.repeat([1.0, soft], 8000)).astype("f4")
+    assert active_power(samples, 16000) == pytest.approx((1 + soft) / 2 if counts else 1.0, rel=1e-4)
+
+
 def test_pauses_do_not_count_in_the_level_of_speech() -> None:
     tone = np.sin(np.arange(8000) * 0.3).astype("f4")
     pause = 1e-3 * np.random.default_rng(0).standard_normal(24000).astype("f4")

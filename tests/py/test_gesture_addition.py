@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
 
 from drawn_hands import SIDE_PX, picture, stills
 from hri import GestureRecognizer

@@ -16,8 +16,6 @@ from hri.live import VideoSource, Watcher
 from hri.media import read_frames, write_video
 from test_watching_movements import FAR, FPS, clip
 
-pytest.importorskip("hri._native_vision")
-
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = os.environ.get("HRI_BUILD_DIR")
 

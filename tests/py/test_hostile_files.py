@@ -41,7 +41,7 @@ from hri.robot.motion.trajectory import Trajectory
 EXAMPLES = int(os.environ.get("HRI_EXAMPLES", "60"))
 hostile = settings(
     max_examples=EXAMPLES,
-    deadline=20_000,  # what waits; what computes is measured by only_hri_s_errors
+    deadline=60_000,  # what waits; what computes is measured by only_hri_s_errors
     derandomize="HRI_EXAMPLES" not in os.environ,
     database=None,
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],

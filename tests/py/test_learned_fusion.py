@@ -245,6 +245,34 @@ def test_what_speaks_against_sense_is_not_learned() -> None:
     assert Reliability.fit(quality["speech"], NONE, ~NONE).of(np.array([3.0]), NONE[:1])[0] == 0.98
 
 
+def test_a_mode_that_was_always_right_or_never_follows_laplace() -> None:
+    """10 of 10 right are odds of 11 to 1: no more than that is known of so few."""
+    quality = np.linspace(1.0, 3.0, 10)
+    for right, expected in ((~NONE[:10], 11 / 12), (NONE[:10], 1 / 12)):
+        found = Reliability.fit(quality, NONE[:10], right)
+        assert (found.slope, found.rejection, found.prior) == (0, 0, pytest.approx(2.0))
+        assert found.of(np.array([0.0, 9.0, np.nan]), NONE[:3]) == pytest.approx([expected] * 3)
+
+
+@kinds
+def test_a_rejection_lets_the_other_mode_win(kind: str) -> None:
+    """Speech and gesture say different labels, speech a little surer, on signals of the same quality."""
+    scores, quality, truth = TRAIN
+    wrong = {mode: scores[mode].argmax(axis=1) != truth for mode in MODES}
+    fusion = LearnedFusion(kind).fit(scores, quality, truth, wrong)
+    speech = decided("speech", (0.9, 0.04, 0.03, 0.02, 0.01), 0.6 * BEST_QUALITY["speech"])
+    gesture = decided("gesture", (0.04, 0.88, 0.04, 0.03, 0.01), 0.6 * BEST_QUALITY["gesture"])
+    assert fusion.fuse(replace(speech, status="unknown", label="unknown"), gesture).label == "b"
+    assert fusion.fuse(speech, replace(gesture, status="unknown", label="unknown")).label == "a"
+
+
+def test_of_classes_that_a_tree_scores_alike_the_product_decides() -> None:
+    """A tree of one leaf scores all alike; of equal classes the first of the alphabet would come first."""
+    fusion = LearnedFusion.from_model_file(changed("tree", "learner.nodes", np.array([[-1.0, 0, 0, 0, 0.3]])))
+    speech, gesture = (decided(mode, (0.1, 0.2, 0.1, 0.4, 0.2), 0.5) for mode in MODES)
+    assert [entry.label for entry in fusion.fuse(speech, gesture).nbest[:2]] == ["d", "b"]
+
+
 @kinds
 def test_stop_missing_modes_and_rejections_are_those_of_every_rule(kind: str) -> None:
     fusion = FITTED[kind]

@@ -90,7 +90,6 @@ def test_what_no_camera_has_is_refused(nao):
 
 
 def test_nao_sees_a_sign_says_so_and_answers_by_a_motion(nao):
-    pytest.importorskip("hri._native_vision")
     from session_people import signing, train_signs
 
     drawn = signing([("flat", 1.0)], 4.0, hold_s=1.2)
@@ -111,7 +110,6 @@ def test_nao_sees_a_sign_says_so_and_answers_by_a_motion(nao):
 
 
 def test_a_gesture_of_the_vocabulary_is_naos_own(nao):
-    pytest.importorskip("hri._native_vision")
     import hri
     from drawn_hands import stills
 
@@ -125,7 +123,6 @@ def test_a_gesture_of_the_vocabulary_is_naos_own(nao):
 
 def test_commands_move_a_real_nao(nao, hri, tmp_path):
     pytest.importorskip("click")
-    pytest.importorskip("hri._native_vision")
     from session_people import train_signs
 
     model = tmp_path / "signs.hri"

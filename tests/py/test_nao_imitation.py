@@ -154,7 +154,6 @@ def test_a_nao_whose_arms_were_moved_by_hand_begins_where_they_are() -> None:
 def test_a_nao_on_the_wire_imitates_in_a_session_until_stop() -> None:
     pytest.importorskip("qi")
     pytest.importorskip("cv2")
-    pytest.importorskip("hri._native_vision")
     from hri.robot import NaoqiRobot
     from nao_services import Nao
 

@@ -12,7 +12,6 @@ import pytest
 
 pytest.importorskip("qi")
 pytest.importorskip("pybullet")
-pytest.importorskip("hri._native_vision")
 pytest.importorskip("cv2")
 
 import hri

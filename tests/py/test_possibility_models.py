@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from conftest import WAIT_S
 from hri.core.errors import InvalidArgument
 from hri.io import ModelFile
 from hri.models import (
@@ -266,7 +267,7 @@ def test_an_interrupt_ends_the_training(kind: str) -> None:
             long_training(kind)
     finally:
         timer.join()
-    assert time.monotonic() - started < 10
+    assert time.monotonic() - started < WAIT_S
 
 
 def gaussian_set(num_classes: int = 3, **rule: object) -> PossibilisticGaussianHmmSet:

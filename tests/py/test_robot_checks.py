@@ -187,3 +187,17 @@ def test_overlaps_are_those_that_pybullet_sees():
             assert deep <= ours <= theirs
             seen += len(ours)
     assert seen > 100
+
+
+@pytest.mark.parametrize(("pulses", "outside"), [(1.4, False), (1.6, True)])
+@pytest.mark.parametrize("name", ["larm_joint_1", "rleg_joint_4", "head_joint_2"])
+@pytest.mark.parametrize("end", ["lower", "upper"])
+def test_limits_hold_to_a_pulse_and_a_half(name, end, pulses, outside):
+    """A degree is 209 pulses."""
+    joint = HOAP2[name]
+    beyond_rad = np.radians(pulses / 209)
+    at_rad = joint.lower_rad - beyond_rad if end == "lower" else joint.upper_rad + beyond_rad
+    found = [
+        finding for finding in check_trajectory(Trajectory([name], 1.0, [[at_rad]])) if "is outside" in finding.message
+    ]
+    assert [(finding.row, finding.joint) for finding in found] == [(1, name)] * outside

@@ -13,6 +13,7 @@ from importlib.util import find_spec
 import numpy as np
 import pytest
 
+from conftest import WAIT_S
 from hri.core.errors import Error, InvalidArgument
 from hri.robot import HOAP2, MotionLog, Trajectory, gesture_trajectory, open_robot, stopped_by_signals
 from hri.robot.simulation.kinematic_backend import KinematicRobot
@@ -141,11 +142,11 @@ def test_another_thread_cannot_move_it_but_close_it():
     robot._command = slow
     mover = threading.Thread(target=lambda: went_on.append(robot.perform(LONG)))
     mover.start()
-    assert begun.wait(5.0)
+    assert begun.wait(WAIT_S)
     with pytest.raises(Error, match="one at a time"):
         robot.perform(NOD)
     robot.close()
-    mover.join(5.0)
+    mover.join(WAIT_S)
     assert went_on == [False] and robot.events[-1].kind == "stop"
 
 

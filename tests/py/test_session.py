@@ -25,7 +25,6 @@ from hri.studies.endurance import RepeatedPictures, RepeatedSound, memory_bytes
 from session_people import MOTIONS, NOD, TURN, signing, speech, train_signs, train_words
 
 pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
 
 CAUSE = Cause(0.0, 0.0, 0.0)
 SAID = [("flat", 1.5), ("tall", 7.0), ("stop", 10.2)]

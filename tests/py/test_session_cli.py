@@ -21,7 +21,6 @@ from hri.media import write_video
 from session_people import signing, speech, train_signs, train_words
 
 pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
 
 
 @pytest.fixture(scope="module")

@@ -270,7 +270,7 @@ def test_a_new_session_does_not_imitate_what_was_seen_in_the_one_before() -> Non
 
 
 def test_a_caller_that_leaves_in_mid_motion_stops_the_robot(words: Any, robot: Robot) -> None:
-    slow = Trajectory(["head_joint_1"], 20.0, [[0.0], [0.5], [0.0]])
+    slow = Trajectory(["head_joint_1"], 100.0, [[0.0], [0.5], [0.0]])
     session = Session(words, None, robot, motions={**MOTIONS, "flat": slow})
     source = ArraySource(speech([("flat", 0.5)], 3.0), RATE_HZ)
     events: Any = session.run(lambda: source, live=True)

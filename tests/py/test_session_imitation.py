@@ -23,7 +23,6 @@ from hri.vision import PersonTracker
 from session_people import MOTIONS, speech, train_signs, train_words
 
 pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
 
 FPS = 15.0
 NOSE = (160.0, 50.0)

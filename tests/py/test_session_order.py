@@ -185,3 +185,77 @@ def test_an_unsure_stop_waits_no_longer_than_it_may_where_no_stream_goes_on() ->
     assert scene.done == []
     scene.process(session_event(7.0, "tick"))
     assert scene.done == ["stop stop"]
+
+
+def pairer(**options: Any) -> Pairer:
+    """Both modes have a source."""
+    made = Pairer(SessionOptions(**options))
+    for mode in ("speech", "gesture"):
+        made.join(mode, 0.0)
+    return made
+
+
+def observed(mode: str, label: str, first_s: float, last_s: float, confidence: float = 0.95) -> Observation:
+    return Observation(decision(mode, confidence, **{label: 0.0}), first_s, last_s)
+
+
+def heard_and_seen(pair: Pair) -> tuple[str, str]:
+    """The label of the word and of the sign, "" for none."""
+    speech, gesture = (one.label if one is not None else "" for one in (pair.fused.speech, pair.fused.gesture))
+    return speech, gesture
+
+
+@pytest.mark.parametrize(("last_s", "taken"), [(1.5, True), (1.6, False)])
+def test_no_takes_back_no_sign_that_had_not_ended_before_it(last_s: float, taken: bool) -> None:
+    made = pairer()
+    assert made.observe(observed("gesture", "wave", 0.8, last_s), 1.9) == []
+    found = made.observe(observed("speech", "no", 1.5, 1.9), 2.2)
+    assert [(pair.fused.label, pair.taken_back) for pair in found] == [("wave", True)] * taken + [("no", False)]
+    assert made.waiting == (not taken)
+
+
+def test_of_two_words_that_overlap_a_sign_the_one_that_began_with_it_is_paired() -> None:
+    made = pairer()
+    made.begin("gesture", 1.9, 2.0)
+    assert made.observe(observed("speech", "left", 1.0, 2.0), 2.3) == []
+    assert made.observe(observed("speech", "5", 2.05, 2.8), 3.1) == []
+    found = made.observe(observed("gesture", "wave", 1.9, 3.0), 3.4)
+    assert [heard_and_seen(pair) for pair in found] == [("left", ""), ("5", "wave")]
+
+
+def test_what_may_not_wait_any_longer_is_paired_with_what_is_there() -> None:
+    """A word that goes on is nearer to the sign, and the session comes to the end of all waiting in one step."""
+    made = pairer(max_wait_s=3.0)
+    made.begin("gesture", 2.0, 1.6)
+    assert made.observe(observed("speech", "left", 1.0, 1.4), 1.7) == []
+    made.begin("speech", 2.2, 2.3)
+    assert made.observe(observed("gesture", "wave", 2.0, 2.4), 2.6) == []
+    assert [heard_and_seen(pair) for pair in made.passed(10.0)] == [("left", "wave")]
+
+
+def test_an_unsure_stop_stays_beside_a_sign_that_waits_while_the_robot_moves() -> None:
+    made = pairer()
+    made.hurried = True
+    made.begin("gesture", 1.8, 1.75)
+    assert made.observe(observed("speech", "stop", 1.0, 1.5, confidence=0.43), 1.8) == []
+    made.begin("speech", 2.1, 2.2)
+    assert made.observe(observed("gesture", "5", 1.8, 2.5), 2.6) == [], "the word that is being said is nearer"
+    (pair,) = made.drop("speech", 2.7)
+    assert heard_and_seen(pair) == ("stop", "5") and pair.fused.status == "ask"
+
+
+def test_a_late_report_does_not_set_a_stream_back() -> None:
+    made = pairer()
+    made.tick("gesture", 5.0)
+    made.tick("gesture", 1.0)
+    assert [heard_and_seen(pair) for pair in made.observe(observed("speech", "wave", 1.0, 1.8), 2.1)] == [("wave", "")]
+
+
+def test_a_source_that_ends_in_mid_word_leaves_nothing_begun() -> None:
+    made = pairer()
+    made.begin("speech", 1.0, 1.1)
+    assert made.active
+    assert made.leave("speech", 1.3) == [] and not made.active
+    made.join("speech", 2.0)
+    assert made.observe(observed("gesture", "wave", 2.0, 2.4), 2.5) == []
+    assert [heard_and_seen(pair) for pair in made.tick("speech", 4.0)] == [("", "wave")]

@@ -27,7 +27,6 @@ from session_people import MOTIONS, signing, speech, train_signs, train_words
 from test_hostile_files import hostile, only_hri_s_errors
 
 pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
 reader = pytest.importorskip("mcap.reader")
 writer = pytest.importorskip("mcap.writer")
 pytest.importorskip("mcap_ros2")

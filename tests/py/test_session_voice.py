@@ -25,7 +25,7 @@ from hri.live import Event, Loudspeaker
 from hri.recognition.decision import Decision
 from hri.robot import open_robot
 from hri.session import McapRecorder, Session, SessionOptions, Voice, decisions, read_recording, replay
-from hri.session.voice import TAIL_S, OwnVoice, aloud
+from hri.session.voice import OwnVoice, aloud
 from session_people import MOTIONS, speech, train_words
 
 pytest.importorskip("cv2")
@@ -67,8 +67,8 @@ def test_which_words_may_be_the_robots_own(heard: Decision, stops: bool, text: s
     voice.end("another text", 2.5)
     assert voice.may_be(heard, 60.0, 61.0, stops, moving) is own, "it speaks still"
     voice.end(text, 3.0)
-    assert voice.may_be(heard, 2.9 + TAIL_S, 5.0, stops, moving) is own
-    assert not voice.may_be(heard, 3.1 + TAIL_S, 5.0, stops, moving)
+    assert voice.may_be(heard, 3.4, 5.0, stops, moving) is own, "a room echoes for half a second"
+    assert not voice.may_be(heard, 3.6, 5.0, stops, moving)
 
 
 def test_of_two_voices_that_say_the_same_one_may_go_on() -> None:

@@ -27,7 +27,6 @@ from hri.session import McapRecorder, Session, decisions, read_recording, replay
 from session_people import signing, speech, train_signs, train_words
 
 pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
 
 
 @pytest.fixture(scope="module")

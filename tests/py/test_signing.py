@@ -26,7 +26,6 @@ from session_people import MOTIONS, NOD, speech, train_signs, train_words
 from signing_people import FPS, DrawnFace, Tracks, film, signed, train_sentences
 
 pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
 
 KNOWLEDGE = KnowledgeBase(
     [

@@ -20,7 +20,6 @@ from hri.session import Session, SessionOptions
 from signing_people import FPS, SIGNS, DrawnFace, Tracks, film, signed, train_sentences
 
 pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
 
 STROKES = {
     "far": [[(60, 95), (-90, -40)], [(100, -40), (-90, -40)]],

@@ -18,7 +18,6 @@ from hri.recognition.decision import Decision, NBest
 from hri.training import choices
 
 pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
 
 
 @pytest.fixture(scope="module")

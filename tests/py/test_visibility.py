@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
 
 import hri
 from drawn_hands import FPS, HIDDEN, picture, shown

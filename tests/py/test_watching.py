@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 import hri
+from conftest import WAIT_S
 from drawn_hands import FPS, picture, shown, stills
 from hri import _native
 from hri.core.errors import FormatError, InvalidArgument, IoError
@@ -30,7 +31,6 @@ from hri.live import (
 from hri.media import read_frames, write_video
 
 cv2 = pytest.importorskip("cv2")
-pytest.importorskip("hri._native_vision")
 
 
 @pytest.fixture(scope="module")
@@ -153,7 +153,7 @@ class FakeCapture:
         self.count += 1
         broken = self.opens == 1 and self.count > self.plugged
         if broken and self.fault == "blocks":
-            self.gate.wait(20)
+            self.gate.wait(2 * WAIT_S)
         if broken and self.fault == "fails":
             return False, None
         if not (broken and self.fault == "repeats"):
@@ -246,7 +246,7 @@ def test_an_unplugged_camera_is_told_and_comes_back(
     source = CameraSource(0, stall_s=0.3)
     begun = time.monotonic()
     reported: list[str] = []
-    for event in Watcher(signs, reconnect_s=20).watch(source):
+    for event in Watcher(signs, reconnect_s=WAIT_S).watch(source):
         reported.append(event.event)
         if event.event == "stall":
             assert message in event.fields["message"]
@@ -259,7 +259,7 @@ def test_an_unplugged_camera_is_told_and_comes_back(
     ]
     camera.gate.set()
     source.close()
-    assert source.read() is None and camera.opens == 2 and time.monotonic() - begun < 20
+    assert source.read() is None and camera.opens == 2 and time.monotonic() - begun < WAIT_S
 
 
 def test_a_camera_that_stays_away_ends_the_watch(camera: type[FakeCapture], signs: hri.GestureRecognizer) -> None:
