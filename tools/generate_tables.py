@@ -15,14 +15,16 @@ spread=no           means only
 digits=N            decimals
 
 ``<!-- results: readme-accuracy -->`` and the like are put together from several results: see `tools/readme_tables.py`.
-``<!-- example: PATH -->`` holds the program of that path. `--check` also fails for a result whose study depends on code
-that has changed since (see `hri.studies.kept`), and for one whose commit is not in the history. Benches that are older
-than their code are a note.
+``<!-- example: PATH -->`` holds the program of that path. Below the table of a result whose study depends on code that
+has changed since (see `hri.studies.kept`) this is said. `--check` fails where it is not, for such a result in the
+README, and for one of the present code whose commit is not in the history. Benches that are older than their code are
+a note.
 """
 
 from __future__ import annotations
 
 import argparse
+import functools
 import re
 import shlex
 import sys
@@ -42,10 +44,13 @@ _BLOCK = re.compile(
 )
 
 
-def caption(kept: dict) -> str:
+CHANGED_SINCE = ", and not since the code has changed"
+
+
+def caption(kept: dict, is_stale: bool) -> str:
     """The command that repeats a result, and the code that it was last verified with, or measured with."""
     how = "verified" if "verified" in kept else "measured"
-    return f"<sub>`{command_of(kept)}`, {how} at `{code_of(kept)['commit']}`</sub>"
+    return f"<sub>`{command_of(kept)}`, {how} at `{code_of(kept)['commit']}`{CHANGED_SINCE * is_stale}</sub>"
 
 
 def make_table(spec: str) -> str:
@@ -54,7 +59,8 @@ def make_table(spec: str) -> str:
     if name in readme_tables.TABLES:
         return readme_tables.TABLES[name](RESULTS)
     options = dict(word.split("=", 1) for word in words)
-    kept = read_kept(RESULTS / f"{name}.json")
+    path = RESULTS / f"{name}.json"
+    kept = read_kept(path)
     study = STUDIES[kept["study"]]
     shown = Pivot(
         rows=_listed(options.pop("rows", "")),
@@ -67,7 +73,9 @@ def make_table(spec: str) -> str:
     )
     if options:
         raise InvalidArgument(f"unknown options: {', '.join(options)}")
-    return markdown_table(pivot(kept["rows"], study.layout, shown)) + "\n" + caption(kept) + "\n"
+    return (
+        markdown_table(pivot(kept["rows"], study.layout, shown)) + "\n" + caption(kept, path in stale_results()) + "\n"
+    )
 
 
 def show_example(path: str) -> str:
@@ -102,6 +110,7 @@ def kept_paths() -> list[Path]:
     return [path for path in sorted(RESULTS.glob("*.json")) if path.name != readme_tables.BENCHES]
 
 
+@functools.cache
 def stale_results() -> dict[Path, str]:
     """The results that are older than the code of their study, and why."""
     found = {}
@@ -114,16 +123,31 @@ def stale_results() -> dict[Path, str]:
     return found
 
 
+def stale_headlines() -> dict[Path, str]:
+    """Those of the README among them."""
+    shown = {RESULTS / f"{line.file}.json" for line in readme_tables.ACCURACY}
+    return {path: why for path, why in stale_results().items() if path in shown}
+
+
 def lost_commits() -> dict[Path, str]:
-    """The results whose code cannot be checked out, and why; of a clone without its history only a note is printed."""
+    """The results of the present code whose commit cannot be checked out, and why.
+
+    Of a clone without its history only a note is printed.
+    """
     history = history_of(ROOT)
     if history is None:
         print("commits of the results are not checked: no history of git is here", file=sys.stderr)
         return {}
     found = {path: fault_of_commit(code_of(read_kept(path))["commit"], history) for path in kept_paths()}
+    found = {path: fault for path, fault in found.items() if path not in stale_results()}
     return {
         path: f"{fault}; run tools/verify_results.sh {path.relative_to(ROOT)}" for path, fault in found.items() if fault
     }
+
+
+def without_marks(text: str) -> str:
+    """A page that does not say which results are older than their code."""
+    return text.replace(CHANGED_SINCE, "")
 
 
 def stale_benches() -> str:
@@ -149,14 +173,15 @@ def main() -> int:
     wrong = []
     for page in (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))):
         text = written_anew(page)
-        if text == page.read_text(encoding="utf-8"):
+        shown = page.read_text(encoding="utf-8")
+        if text == shown or (arguments.tables and without_marks(text) == without_marks(shown)):
             continue
         if check:
             wrong.append(f"{page.relative_to(ROOT)}: tables differ from docs/results; run tools/generate_tables.py")
         else:
             page.write_text(text, encoding="utf-8")
     if check and not arguments.tables:
-        for found in (stale_results(), lost_commits()):
+        for found in (stale_headlines(), lost_commits()):
             wrong += [f"{path.relative_to(ROOT)}: {why}" for path, why in found.items()]
         if rooms := stale_benches():  # no failure: benches need a machine of their own, and cannot be verified in part
             print(f"note: the benches were measured with other code in {rooms}; ./run bench --json", file=sys.stderr)

@@ -308,15 +308,23 @@ def test_the_page_shows_the_commit_verified_and_lost_ones_are_refused(
     import generate_tables
 
     result = {"study": "fsdd", "arguments": {"only": {}}, "data": {}, "rows": [], "measured": {"commit": "aa+"}}
-    assert generate_tables.caption(result) == "<sub>`hri study fsdd`, measured at `aa+`</sub>"
+    assert generate_tables.caption(result, False) == "<sub>`hri study fsdd`, measured at `aa+`</sub>"
+    stale = generate_tables.caption(result, True)
+    assert stale == "<sub>`hri study fsdd`, measured at `aa+`, and not since the code has changed</sub>"
+    assert generate_tables.without_marks(stale) == generate_tables.caption(result, False)
     verified = {**result, "verified": {"commit": "bb"}}
-    assert generate_tables.caption(verified) == "<sub>`hri study fsdd`, verified at `bb`</sub>"
+    assert generate_tables.caption(verified, False) == "<sub>`hri study fsdd`, verified at `bb`</sub>"
     for name, content in (("a", result), ("b", verified), ("c", {**result, "verified": {"commit": "cc"}})):
         (tmp_path / f"{name}.json").write_text(json.dumps(content))
     monkeypatch.setattr(generate_tables, "ROOT", tmp_path)
     monkeypatch.setattr(generate_tables, "RESULTS", tmp_path)
     monkeypatch.setattr(generate_tables, "history_of", lambda root: ["bbbb"])
+    monkeypatch.setattr(generate_tables, "stale_results", lambda: {})
     assert {path.name for path in generate_tables.lost_commits()} == {"a.json", "c.json"}
+    # What is said to be older than the code need not be verified at a commit of it, but in the README.
+    monkeypatch.setattr(generate_tables, "stale_results", lambda: {tmp_path / "a.json": "", tmp_path / "fsdd.json": ""})
+    assert {path.name for path in generate_tables.lost_commits()} == {"c.json"}
+    assert {path.name for path in generate_tables.stale_headlines()} == {"fsdd.json"}
     monkeypatch.setattr(generate_tables, "history_of", lambda root: None)
     assert generate_tables.lost_commits() == {} and "not checked" in capsys.readouterr().err
 
