@@ -140,8 +140,8 @@ def _frames(num_frames: int, seed: int) -> np.ndarray:
 
 
 def gmm_hmm_forward() -> Timed:
-    """Log-likelihood of 2000 frames, 39 features, 8 left-right states, one Gaussian a state; ours in float32, hmmlearn in
-    float64, which it has alone."""
+    """Log-likelihood of 2000 frames, 39 features, 8 left-right states, one Gaussian a state; ours in float32,
+    hmmlearn in float64, which it has alone."""
     ours, peers = _left_right_pair(0)
     frames = _frames(2000, 1)
     assert all(np.isclose(ours.log_likelihood(frames), peer.score(frames), rtol=1e-5) for peer in peers)

@@ -57,8 +57,8 @@ OTHER_WORDS = {
     "hindi-digits": ("fsdd", "hindi-words"),
     "hindi-words": ("fsdd", "hindi-digits"),
 }
-"""By vocabulary: what else people say. Who is trained on is left out by name, which in the two Hindi sets may be that of
-another person: who was trained on may then speak in the other set under another name."""
+"""By vocabulary: what else people say. Who is trained on is left out by name, which in the two Hindi sets may be
+that of another person: who was trained on may then speak in the other set under another name."""
 
 
 @dataclass(frozen=True)
