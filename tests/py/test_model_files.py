@@ -212,6 +212,7 @@ SEEDS = sorted((Path(__file__).resolve().parents[1] / "fuzz" / "seeds" / "model_
 READERS = {
     "connected_word_recognizer": hri.ConnectedWordRecognizer,
     "sentence_recognizer": hri.SentenceRecognizer,
+    "subword_recognizer": hri.SubwordRecognizer,
     "word_recognizer": hri.WordRecognizer,
 }
 
@@ -219,4 +220,7 @@ READERS = {
 @pytest.mark.parametrize("seed", SEEDS, ids=lambda path: path.stem)
 def test_models_that_fuzzing_begins_with_are_taken(seed: Path) -> None:
     """One that is refused at its first field leads no deeper."""
-    assert len(READERS[_native.ModelFile.read(str(seed)).kind].load(seed).classes_) >= 1
+    kind = _native.ModelFile.read(str(seed)).kind
+    assert kind in {*READERS, "gaussian_bayes", "htk_embedded_sums"}
+    if kind in READERS:  # the others are parts of recognisers, and of a training
+        assert len(READERS[kind].load(seed).classes_) >= 1

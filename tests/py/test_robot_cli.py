@@ -167,7 +167,8 @@ def test_motions_of_both_robots_are_drawn(run, tmp_path):
 def test_a_stop_label_moves_no_robot(tmp_path):
     from hri.cli.recognise import _answer
     from hri.fusion import FusedDecision
+    from hri.session import LabelMotions
 
     stop = FusedDecision("stop", "recognised", 0.9, "stop: recognised in speech", (), None, None)
-    answer = _answer(stop, tmp_path / "stop.png", "kinematic", gui=False)
+    answer = _answer(stop, tmp_path / "stop.png", "kinematic", gui=False, motions=LabelMotions())
     assert answer == {"moved": False, "reason": "stop"} and not (tmp_path / "stop.png").exists()

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import json
 import tracemalloc
 from collections.abc import Sequence
 from pathlib import Path
@@ -87,7 +88,9 @@ def test_a_table_of_tracks_without_rows_is_refused(hri: Any, sentences: hri.Sent
     ):
         (tmp_path / "hands.csv").write_text(text)
         found = hri("read-sentences", tmp_path / "hands.csv", "--model", tmp_path / "signs.hri", "--json", "-")
-        assert found.code == 3 and "hands.csv: no rows" in found.err and not found.out, found.err
+        assert found.code == 3 and "hands.csv: no rows" in found.err, found.err
+        (read,) = json.loads(found.out).values()
+        assert list(read) == ["error"] and "hands.csv: no rows" in read["error"]
 
 
 class Again:
