@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(, NetworkRecognizer,
                                            FrontEndKind::embedding));
 
 TEST(NetworkWords, EveryEpochIsAStepOfTraining) {
-  const Clips all = tone_clips();
+  const auto all = tone_clips();
   const auto num_samples = static_cast<int>(all.samples.size());
   const int of_a_model = 1 + num_samples / 2;
   std::vector<int> of_models;
