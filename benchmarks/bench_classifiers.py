@@ -57,7 +57,7 @@ def svm_picture() -> Timed:
     """The scores of one row of 200 features by ten linear machines with equal weights, as for each picture; the peer
     is NumPy's product, which checks nothing."""
     ours, peer = _svms()
-    row = _rows(1, 2)
+    row, _ = _rows(1, 2)
     weights, biases = peer.coef_.T.astype(np.float32), peer.intercept_.astype(np.float32)
     assert np.allclose(ours.decision_values(row), row @ weights + biases, atol=1e-3)
     return medians(lambda: ours.decision_values(row), lambda: row @ weights + biases, 501)

@@ -15,7 +15,9 @@ RUN_ALL = Path(__file__).resolve().parents[2] / "benchmarks" / "run_all.py"
 
 
 def run(*arguments: str) -> str:
-    return subprocess.run([sys.executable, str(RUN_ALL), *arguments], capture_output=True, text=True, check=True).stdout
+    done = subprocess.run([sys.executable, str(RUN_ALL), *arguments], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[-3000:]
+    return done.stdout
 
 
 @pytest.mark.slow
