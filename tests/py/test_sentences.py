@@ -271,6 +271,29 @@ def test_a_video_or_a_file_that_cannot_be_read_leaves_the_others(
     assert found[str(blind)]["0"]["text"] == "CAT" and found[str(good)]["1"]["text"] == "DOG"
 
 
+def test_a_hand_out_of_view_decides_nothing(sentences: list[Sentence], tmp_path: Path) -> None:
+    def right_alone(one: Sentence) -> Sentence:
+        tracks = one[0].copy()
+        tracks[:, 0] = np.nan
+        return tracks, one[1]
+
+    def train(some: list[Sentence]) -> SentenceRecognizer:
+        return SentenceRecognizer(**OPTIONS).fit([t for t, _ in some], [w for _, w in some])
+
+    words = ["DOG", "CAT", "BALL"]
+    whole = signed(words, 77)
+    for some in (sentences, [right_alone(s) if i % 2 else s for i, s in enumerate(sentences)]):
+        trained = train(some)
+        trained.save(tmp_path / "signs.hri")
+        for signs in (trained, SentenceRecognizer.load(tmp_path / "signs.hri")):
+            for tracks, _ in (whole, right_alone(whole)):
+                assert signs.recognise(tracks).labels == tuple(words)
+    alone = train([right_alone(s) for s in sentences])
+    assert alone.trained_options.features.use_left is False and alone.recognise(whole[0]).labels == tuple(words)
+    with pytest.raises(InvalidArgument, match="right hand"):
+        train([(right_alone(s)[0][:, [1, 0, 2]], s[1]) for s in sentences])
+
+
 def test_weights_are_chosen_on_signers_held_out_where_there_are_two(
     hri, sentences: list[Sentence], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -308,6 +331,10 @@ def test_the_studies_of_models_and_of_knowledge(tmp_path: Path) -> None:
     models = run_study(get_study("asl-ptbhmm"), tmp_path, lambda *_: None, {}, folds=1)
     assert {row["model"]: row["word_error_mean"] for row in models["rows"]} == {"hmm": 0, "ptbhmm": 0}
     assert models["passed"] and set(models["ms_a_frame"]) == {"hmm", "ptbhmm"}
+    hidden = run_study(get_study("asl-one-hand"), tmp_path, lambda *_: None, {}, folds=1)
+    assert {row["view"] for row in hidden["rows"]} == {"both hands", "right hand alone"} and len(hidden["rows"]) == 12
+    errors = {(row["model"], row["words"], row["view"]): row["word_error_mean"] for row in hidden["rows"]}
+    assert max(errors.values()) <= 0.5 and hidden["passed"] == (max(hidden["costs"].values()) <= 0.15)
     knowledge = run_study(get_study("asl-knowledge"), tmp_path, lambda *_: None, {}, folds=1)
     share = {(r["signed"], r["meaning"], r["outcome"]): r["share_mean"] for r in knowledge["rows"]}
     within = "nearest within the distance"

@@ -10,6 +10,15 @@
 #include "language/possibility_kernels.hpp"
 
 namespace hri {
+namespace {
+
+void check_columns(Span<const int> columns, int dim) {
+  require(!columns.empty(), "columns: there is none");
+  require(std::all_of(columns.begin(), columns.end(), [dim](int c) { return c >= 0 && c < dim; }),
+          "columns: there is one that the models do not have");
+}
+
+}  // namespace
 
 GaussianEmissions::GaussianEmissions(std::vector<GaussianMixtureHmm> models)
     : models_(std::move(models)) {
@@ -28,6 +37,25 @@ void GaussianEmissions::compute(ConstMatrixRefF frames, MatrixRefF out) const {
     model.bank().log_densities(frames, out.middleCols(first, model.num_states()));
     first += model.num_states();
   }
+}
+
+GaussianEmissions GaussianEmissions::marginal(Span<const int> columns) const {
+  check_columns(columns, dim());
+  std::vector<GaussianMixtureHmm> marginals;
+  marginals.reserve(models_.size());
+  const auto num_columns = static_cast<Eigen::Index>(columns.size());
+  for (const GaussianMixtureHmm& model : models_) {
+    const MixtureBank& bank = model.bank();
+    MatrixD means(bank.means().rows(), num_columns);
+    MatrixD variances(bank.means().rows(), num_columns);
+    for (Eigen::Index i = 0; i < num_columns; ++i) {
+      means.col(i) = bank.means().col(columns[static_cast<std::size_t>(i)]);
+      variances.col(i) = bank.variances().col(columns[static_cast<std::size_t>(i)]);
+    }
+    marginals.emplace_back(model.chain(),
+                           MixtureBank(bank.weights(), std::move(means), std::move(variances)));
+  }
+  return GaussianEmissions(std::move(marginals));
 }
 
 PossibilisticEmissions::PossibilisticEmissions(const PossibilisticHmmSet& set)
@@ -76,28 +104,35 @@ CodedPossibilities::CodedPossibilities(const GaussianEmissions& models,
     for (Eigen::Index k = 0; k < table.rows(); ++k, ++first_row)
       std::copy_n(table.row(k).data(), num_states_, table_.begin() + first_row * stride_);
     columns_.push_back(std::move(column));
+    all_columns_.push_back(c);
   }
 }
 
 void CodedPossibilities::compute(ConstMatrixRefF frames, MatrixRefF out) const {
+  compute(frames, all_columns_, out);
+}
+
+void CodedPossibilities::compute(ConstMatrixRefF frames, Span<const int> columns,
+                                 MatrixRefF out) const {
+  check_columns(columns, dim());
   require(frames.cols() == dim(), "frames do not have the columns of the codebook");
   require(out.rows() == frames.rows() && out.cols() == num_states(),
           "out must have a row a frame and a column a state");
   require(frames.allFinite(), "frames must be finite");
   thread_local std::vector<const float*> rows;
   thread_local std::vector<float, detail::CacheLineAllocator<float>> sums;
-  rows.resize(columns_.size());
+  rows.resize(columns.size());
   sums.resize(static_cast<std::size_t>(stride_));
   const detail::PossibilityKernels& kernels = detail::possibility_kernels();
   for (Eigen::Index t = 0; t < frames.rows(); ++t) {
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      const Column& column = columns_[c];
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const Column& column = columns_[static_cast<std::size_t>(columns[i])];
       const std::ptrdiff_t codeword = kernels.count_up_to(
           column.borders.data(), static_cast<std::ptrdiff_t>(column.borders.size()),
-          frames(t, static_cast<Eigen::Index>(c)));
-      rows[c] = table_.data() + (column.first_row + codeword) * stride_;
+          frames(t, columns[i]));
+      rows[i] = table_.data() + (column.first_row + codeword) * stride_;
     }
-    kernels.add_rows(rows.data(), dim(), stride_, sums.data());
+    kernels.add_rows(rows.data(), static_cast<std::ptrdiff_t>(rows.size()), stride_, sums.data());
     std::copy_n(sums.data(), num_states_, out.row(t).data());
   }
 }

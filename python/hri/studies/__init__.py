@@ -7,6 +7,7 @@ from hri.core.suggest import did_you_mean
 from hri.studies import (
     adaptation,
     asl_gestures,
+    asl_one_hand,
     asl_stream,
     classifiers,
     commands,
@@ -106,6 +107,7 @@ _MODULES = (
     sentence_splitting,
     sentences,
     asl_gestures,
+    asl_one_hand,
     asl_stream,
     gesture_sentences,
     drawn_gestures,

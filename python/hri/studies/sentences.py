@@ -94,7 +94,11 @@ def train_signs(
     return recognizer
 
 
-def _known(recognizer: SentenceRecognizer, scales: dict[str, float], use_language: bool) -> Callable[..., list[str]]:
+def recognise_known(
+    recognizer: SentenceRecognizer, scales: dict[str, float], use_language: bool
+) -> Callable[[SignedSentence], list[str]]:
+    """What reads a sentence whose words have known frames; of signers that `scales` does not know, by its own."""
+
     def found(s: SignedSentence) -> list[str]:
         spans = [(first, last) for _, first, last in _spans(s)]
         sentence = recognizer.recognise_spans(
@@ -105,7 +109,8 @@ def _known(recognizer: SentenceRecognizer, scales: dict[str, float], use_languag
     return found
 
 
-def _whole(recognizer: SentenceRecognizer, scales: dict[str, float]) -> Callable[..., list[str]]:
+def recognise_whole(recognizer: SentenceRecognizer, scales: dict[str, float]) -> Callable[[SignedSentence], list[str]]:
+    """What reads a sentence without known frames."""
     return lambda s: list(recognizer.recognise(s.positions, scale_px=scales.get(s.signer, 0.0)).labels)
 
 
@@ -131,12 +136,17 @@ def _run(
                 features = {"use_left": hands == BOTH}
                 recognizer = train_signs(train, scales, part, features=features)
                 chosen[f"{held_out} {number + 1}, {hands}"] = _choices(recognizer)
-                ways = {(KNOWN, words): _known(recognizer, scales, words == BIGRAM) for words in (ALONE, BIGRAM)}
+                ways = {
+                    (KNOWN, words): recognise_known(recognizer, scales, words == BIGRAM) for words in (ALONE, BIGRAM)
+                }
                 if whole:
                     alone = train_signs(train, scales, part, features=features, language_order=0)
-                    ways |= {(FOUND, ALONE): _whole(alone, scales), (FOUND, BIGRAM): _whole(recognizer, scales)}
+                    ways |= {
+                        (FOUND, ALONE): recognise_whole(alone, scales),
+                        (FOUND, BIGRAM): recognise_whole(recognizer, scales),
+                    }
                 for (frames, words), recognise in ways.items():
-                    errors = sum((_errors(s, recognise(s), frames) for s in test), start=WordErrors())
+                    errors = sum((sentence_errors(s, recognise(s), frames) for s in test), start=WordErrors())
                     counts.setdefault((held_out, hands, frames, words), _Counts()).add(str(number + 1), errors)
         unseen[held_out] = num_unseen / sum(len(s.words) for s in sentences)
     rows: list[Row] = [
@@ -153,7 +163,7 @@ def _run(
     }
 
 
-def _errors(sentence: SignedSentence, found: list[str], frames: str) -> WordErrors:
+def sentence_errors(sentence: SignedSentence, found: list[str], frames: str) -> WordErrors:
     """Where frames are known, every word stands for one: no word is deleted or inserted."""
     labels = labels_of(sentence)
     if frames == FOUND:
@@ -206,15 +216,15 @@ def _run_models(data_dir: Path, progress: Progress, *, folds: int | None = None)
             part = within(progress, f"{number + 1}, {model}")
             bigram = train_signs(train, scales, part, model=model)
             alone = train_signs(train, scales, part, model=model, language_order=0)
-            ways = {(KNOWN, words): _known(bigram, scales, words == BIGRAM) for words in (ALONE, BIGRAM)}
-            ways |= {(FOUND, ALONE): _whole(alone, scales), (FOUND, BIGRAM): _whole(bigram, scales)}
+            ways = {(KNOWN, words): recognise_known(bigram, scales, words == BIGRAM) for words in (ALONE, BIGRAM)}
+            ways |= {(FOUND, ALONE): recognise_whole(alone, scales), (FOUND, BIGRAM): recognise_whole(bigram, scales)}
             for (frames, words), recognise in ways.items():
                 begun_s = time.process_time()
                 found = [recognise(s) for s in test]
                 if (frames, words) == (FOUND, BIGRAM):
                     took_s[model] += time.process_time() - begun_s
                     num_frames[model] += sum(len(s.positions) for s in test)
-                errors = [_errors(s, labels, frames) for s, labels in zip(test, found, strict=True)]
+                errors = [sentence_errors(s, labels, frames) for s, labels in zip(test, found, strict=True)]
                 counts.setdefault((model, frames, words), _Counts()).add(
                     str(number + 1), sum(errors, start=WordErrors())
                 )

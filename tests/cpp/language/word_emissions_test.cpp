@@ -64,6 +64,36 @@ TEST(GaussianEmissions, RefuseModelsOfDifferentDimensions) {
   EXPECT_THROW(GaussianEmissions({model(2), model(3)}), InvalidArgument);
 }
 
+TEST(GaussianEmissions, MarginalIsTheIntegralOverWhatIsLeftOut) {
+  GaussianMixtureHmmOptions options;
+  options.num_mixtures = 2;
+  options.topology.num_states = 2;
+  const auto model = GaussianMixtureHmm::train(
+      {testing_data::noise(60, 2, 1, 0.5), testing_data::noise(50, 2, 11)}, options);
+  const GaussianEmissions emissions({model});
+  const std::vector<int> second{1};
+  const GaussianEmissions marginal = emissions.marginal(second);
+  ASSERT_EQ(marginal.dim(), 1);
+  ASSERT_EQ(marginal.num_states(), 2);
+  MatrixF found(1, 2);
+  const MatrixF frame = MatrixF::Constant(1, 1, 0.4F);
+  marginal.compute(frame, found);
+  constexpr double kStep = 0.01;
+  const Eigen::Index count = 4000;
+  MatrixF grid(count, 2);
+  grid.col(1).setConstant(0.4F);
+  grid.col(0) = VectorF::LinSpaced(count, -20.0F, 19.99F);
+  MatrixF densities(count, 2);
+  emissions.compute(grid, densities);
+  for (int j = 0; j < 2; ++j) {
+    const double integral = densities.col(j).cast<double>().array().exp().sum() * kStep;
+    EXPECT_NEAR(std::exp(found(0, j)), integral, 1e-3 * integral);
+  }
+  EXPECT_THROW(emissions.marginal(std::vector<int>{}), InvalidArgument);
+  EXPECT_THROW(emissions.marginal(std::vector<int>{2}), InvalidArgument);
+  EXPECT_THROW(emissions.marginal(std::vector<int>{-1}), InvalidArgument);
+}
+
 TEST(PossibilisticEmissions, GiveTheDecoderThePossibilityOfEveryModel) {
   std::vector<std::vector<SymbolSequence>> per_class(2);
   for (std::int32_t c = 0; c < 2; ++c) {
@@ -138,6 +168,16 @@ TEST(CodedPossibilities, AreDensitiesOfCodewordsByTheLargestInEveryColumn) {
     EXPECT_LT((found.row(t).transpose().cast<double>() - expected).cwiseAbs().maxCoeff(), 1e-3);
   }
   EXPECT_LE(found.maxCoeff(), 0);
+  // Columns are joined by the product.
+  MatrixF parts = MatrixF::Zero(50, 7);
+  for (const std::vector<int>& columns : {std::vector<int>{1}, std::vector<int>{0, 2}}) {
+    MatrixF part(50, 7);
+    possibilities.compute(frames, columns, part);
+    parts += part;
+  }
+  EXPECT_LT((parts - found).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_THROW(possibilities.compute(frames, {}, found), InvalidArgument);
+  EXPECT_THROW(possibilities.compute(frames, std::vector<int>{3}, found), InvalidArgument);
   MatrixF narrow(50, 3);
   EXPECT_THROW(possibilities.compute(frames, narrow), InvalidArgument);
   EXPECT_THROW(possibilities.compute(testing_data::noise(50, 4, 7), found), InvalidArgument);

@@ -28,6 +28,10 @@ class HRI_API GaussianEmissions {
   /// other shapes and values not finite.
   void compute(ConstMatrixRefF frames, MatrixRefF out) const;
 
+  /// The densities of some columns alone, whatever the others are. Throws InvalidArgument for no
+  /// columns and those that there are not.
+  [[nodiscard]] GaussianEmissions marginal(Span<const int> columns) const;
+
   [[nodiscard]] int dim() const { return models_.front().dim(); }
   [[nodiscard]] int num_states() const { return num_states_; }  ///< of all models
   [[nodiscard]] const std::vector<GaussianMixtureHmm>& models() const { return models_; }
@@ -67,6 +71,9 @@ class HRI_API CodedPossibilities {
   /// model. Allocates nothing once the thread has computed as many states. Throws InvalidArgument
   /// for other shapes and values not finite.
   void compute(ConstMatrixRefF frames, MatrixRefF out) const;
+  /// The same of some columns alone: those of `frames` (num_frames, dim()) with these numbers.
+  /// Throws InvalidArgument for no columns and those that there are not, too.
+  void compute(ConstMatrixRefF frames, Span<const int> columns, MatrixRefF out) const;
 
   [[nodiscard]] int dim() const { return codebook_.dim(); }
   [[nodiscard]] int num_states() const { return num_states_; }
@@ -82,6 +89,7 @@ class HRI_API CodedPossibilities {
   int num_states_;
   std::ptrdiff_t stride_;  // of the table
   std::vector<Column> columns_;
+  std::vector<int> all_columns_;  // their numbers
   // By column of the frames and codeword, rising, and state; rows are padded.
   std::vector<float, detail::CacheLineAllocator<float>> table_;
 };

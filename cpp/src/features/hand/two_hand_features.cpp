@@ -108,6 +108,28 @@ int TwoHandFeatureComputer::num_static() const {
   return num_hands * (options_.use_polar ? 5 : 2) + (options_.use_relation ? 3 : 0);
 }
 
+std::vector<int> TwoHandFeatureComputer::known_columns(ConstMatrixRefF tracks) const {
+  check(tracks);
+  const bool right = first_seen(tracks, kRight) < tracks.rows();
+  const bool left = first_seen(tracks, kLeft) < tracks.rows();
+  std::vector<bool> known;  // in the order of compute()
+  const auto append = [&known](int count, bool value) {
+    known.insert(known.end(), static_cast<std::size_t>(count), value);
+  };
+  for (const int count : {2, options_.use_polar ? 3 : 0}) {
+    append(count, right);
+    if (options_.use_left) append(count, left);
+  }
+  if (options_.use_relation) append(3, left && right);
+  std::vector<int> columns;
+  for (int order = 0; order <= options_.delta_orders; ++order) {
+    for (int c = 0; c < num_static(); ++c) {
+      if (known[static_cast<std::size_t>(c)]) columns.push_back(order * num_static() + c);
+    }
+  }
+  return columns;
+}
+
 void TwoHandFeatureComputer::compute(ConstMatrixRefF tracks, double scale_px,
                                      MatrixRefF out) const {
   check(tracks);

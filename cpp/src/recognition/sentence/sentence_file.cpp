@@ -18,6 +18,7 @@ namespace {
 constexpr const char* kKind = "sentence_recognizer";
 constexpr const char* kLanguage = "language";
 constexpr const char* kCodebook = "codebook.";
+constexpr const char* kReaches = "reaches";  // of the right hand and of the left one
 constexpr const char* kVariantWords = "variants.words";
 constexpr const char* kVariantLengths = "variants.lengths";
 constexpr const char* kVariantStates = "variants.states";
@@ -56,6 +57,13 @@ void write_variants(const std::vector<SignVariant>& variants, ModelFile& file) {
   file.set_matrix(kVariantFrames, frames);
 }
 
+HandReaches read_reaches(const ModelFile& file) {
+  if (!file.has(kReaches)) return {};
+  const VectorD reaches = file.vector_d(kReaches);
+  if (reaches.size() != 2) fail(ErrorKind::format, "reaches must have two values");
+  return {reaches[0], reaches[1]};
+}
+
 std::vector<SignVariant> read_variants(const ModelFile& file) {
   std::vector<SignVariant> variants;
   if (!file.has(kVariantWords)) return variants;
@@ -90,6 +98,11 @@ ModelFile SentenceRecognizer::to_model_file() const {
   detail::write_options(options_, file);
   for (std::size_t m = 0; m < models().size(); ++m) models()[m].write(file, prefix_of(m));
   file.set_vector("final_stays", final_stays_);
+  if (options_.input == SentenceInput::tracks) {
+    VectorD reaches(2);
+    reaches << reaches_.right, reaches_.left;
+    file.set_vector(kReaches, reaches);
+  }
   write_variants(*variants_, file);
   if (possibilities_ != nullptr) possibilities_->codebook().write(file, kCodebook);
   if (language_ != nullptr) file.set_text(kLanguage, language_->to_arpa());
@@ -127,7 +140,8 @@ SentenceRecognizer SentenceRecognizer::read(const ModelFile& file) {
   if (options.model == SequenceModelKind::ptbhmm)
     codebook = MultiStreamCodebook::read(file, kCodebook);
   SentenceRecognizer result(options, std::move(labels), std::move(models), final_stays,
-                            std::move(language), std::move(codebook), read_variants(file));
+                            std::move(language), std::move(codebook), read_variants(file),
+                            read_reaches(file));
   file.require_all_read();
   return result;
 }

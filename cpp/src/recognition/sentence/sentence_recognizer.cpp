@@ -54,16 +54,15 @@ std::string RecognisedSentence::text() const {
   return text;
 }
 
-SentenceRecognizer::SentenceRecognizer(const SentenceRecognizerOptions& options,
-                                       std::vector<std::string> labels,
-                                       std::vector<GaussianMixtureHmm> models,
-                                       const VectorD& final_stays,
-                                       std::shared_ptr<const NGramModel> language,
-                                       std::optional<MultiStreamCodebook> codebook,
-                                       std::vector<SignVariant> variants)
+SentenceRecognizer::SentenceRecognizer(
+    const SentenceRecognizerOptions& options, std::vector<std::string> labels,
+    std::vector<GaussianMixtureHmm> models, const VectorD& final_stays,
+    std::shared_ptr<const NGramModel> language, std::optional<MultiStreamCodebook> codebook,
+    std::vector<SignVariant> variants, const HandReaches& reaches)
     : options_(validated(options)),
       labels_(std::move(labels)),
       final_stays_(final_stays),
+      reaches_(reaches),
       models_(std::make_shared<const std::vector<GaussianMixtureHmm>>(std::move(models))),
       variants_(std::make_shared<const std::vector<SignVariant>>(std::move(variants))),
       language_(std::move(language)) {
@@ -73,6 +72,9 @@ SentenceRecognizer::SentenceRecognizer(const SentenceRecognizerOptions& options,
           "models must be one a label, and one of what lies between");
   require(static_cast<std::size_t>(final_stays_.size()) == num_models,
           "final_stays must have a value for each model");
+  require(std::isfinite(reaches.right) && std::isfinite(reaches.left) &&
+              std::min(reaches.right, reaches.left) >= 0,
+          "reaches must be finite and at least 0");
   check_variants();
   emissions_ = std::make_shared<const GaussianEmissions>(make_chains());
   const bool are_tracks = options_.input == SentenceInput::tracks;
@@ -157,26 +159,28 @@ SentenceRecognizer SentenceRecognizer::with_known_language_scale(double scale) c
   return result;
 }
 
-MatrixF SentenceRecognizer::frames_of(ConstMatrixRefF tracks, double scale_px) const {
-  MatrixF frames = detail::sentence_frames(options_, tracks, scale_px);
-  require(frames.cols() == emissions_->dim(),
+// Of every frame and state; what depends on a hand that is out of view all the time is left out.
+MatrixF SentenceRecognizer::log_emissions(ConstMatrixRefF tracks, double scale_px) const {
+  const detail::SentenceFrames frames =
+      detail::sentence_frames(options_, tracks, scale_px, reaches_);
+  const MatrixF& features = frames.features;
+  require(features.cols() == emissions_->dim(),
           "rows do not have as many columns as those that were trained on");
-  return frames;
-}
-
-MatrixF SentenceRecognizer::log_emissions(ConstMatrixRefF frames) const {
-  MatrixF result(frames.rows(), emissions_->num_states());
+  MatrixF result(features.rows(), emissions_->num_states());
   if (possibilities_ != nullptr) {
-    possibilities_->compute(frames, result);
+    possibilities_->compute(features, frames.known_columns, result);
+  } else if (frames.are_known()) {
+    emissions_->compute(features, result);
   } else {
-    emissions_->compute(frames, result);
+    const MatrixF known = features(Eigen::all, frames.known_columns);
+    emissions_->marginal(frames.known_columns).compute(known, result);
   }
   return result;
 }
 
 // Has seen all frames of a sentence.
 ConnectedDecoder SentenceRecognizer::decoder_behind(ConstMatrixRefF tracks, double scale_px) const {
-  const MatrixF scores = log_emissions(frames_of(tracks, scale_px));
+  const MatrixF scores = log_emissions(tracks, scale_px);
   ConnectedDecoder decoder(chains_, *network_, options_.decoder);
   for (Eigen::Index t = 0; t < scores.rows(); ++t) decoder.push(row_span(scores, t));
   return decoder;
@@ -196,7 +200,7 @@ RecognisedSentence SentenceRecognizer::recognise_begun(ConstMatrixRefF tracks,
 std::vector<RecognisedSentence> SentenceRecognizer::recognise_n_best(ConstMatrixRefF tracks,
                                                                      int count,
                                                                      double scale_px) const {
-  const MatrixF scores = log_emissions(frames_of(tracks, scale_px));
+  const MatrixF scores = log_emissions(tracks, scale_px);
   const Lattice of_variants = Lattice::decode(chains_, *network_, scores, options_.decoder);
   // Sentences differ in their words, not in the variants of these.
   std::vector<Lattice::Node> nodes = of_variants.nodes();
@@ -238,8 +242,7 @@ RecognisedSentence SentenceRecognizer::sentence_of(double log_score,
 }
 
 // Of every label.
-VectorD SentenceRecognizer::scores_of(ConstMatrixRefF frames) const {
-  const MatrixF of_states = log_emissions(frames);
+VectorD SentenceRecognizer::scores_of(ConstMatrixRefF of_states) const {
   VectorD scores = VectorD::Constant(static_cast<Eigen::Index>(labels_.size()), kImpossible);
   Eigen::Index column = 0;
   for (std::size_t m = 0; m < chains_.size() && words_[m] < scores.size(); ++m) {
@@ -271,8 +274,8 @@ MatrixD SentenceRecognizer::language_table() const {
 RecognisedSentence SentenceRecognizer::recognise_spans(ConstMatrixRefF tracks,
                                                        const std::vector<SignedWordSpan>& spans,
                                                        double scale_px, bool with_language) const {
-  const MatrixF frames = frames_of(tracks, scale_px);
-  detail::check_spans(spans, frames.rows());
+  const MatrixF of_frames = log_emissions(tracks, scale_px);
+  detail::check_spans(spans, of_frames.rows());
   const auto n = static_cast<Eigen::Index>(labels_.size());
   MatrixD table = MatrixD::Zero(n + 1, n + 1);
   if (with_language && language_ != nullptr) table = language_table();
@@ -280,8 +283,9 @@ RecognisedSentence SentenceRecognizer::recognise_spans(ConstMatrixRefF tracks,
   MatrixD scores(static_cast<Eigen::Index>(spans.size()), n);
   VectorD best = VectorD::Zero(n);
   for (std::size_t i = 0; i < spans.size(); ++i) {
-    const auto [first, last] = detail::with_margin(spans[i], options_.margin_frames, frames.rows());
-    const VectorD own = scores_of(frames.middleRows(first, last - first));
+    const auto [first, last] =
+        detail::with_margin(spans[i], options_.margin_frames, of_frames.rows());
+    const VectorD own = scores_of(of_frames.middleRows(first, last - first));
     scores.row(static_cast<Eigen::Index>(i)) = own;
     VectorD next(n);
     previous[i].resize(static_cast<std::size_t>(n));

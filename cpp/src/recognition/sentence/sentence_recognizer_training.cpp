@@ -56,20 +56,6 @@ struct WeightErrors {
   }
 };
 
-template <class Read>
-void naming(const std::string& name, Read&& read) {
-#if defined(__cpp_exceptions)
-  try {
-    std::forward<Read>(read)();
-  } catch (const InvalidArgument& error) {
-    fail(ErrorKind::invalid_argument, name + ": " + error.what());
-  }
-#else
-  (void)name;
-  std::forward<Read>(read)();
-#endif
-}
-
 class SentenceTrainer {
  public:
   SentenceTrainer(const SentenceRecognizerOptions& options, StopCheck should_stop)
@@ -107,17 +93,14 @@ class SentenceTrainer {
 
  private:
   void read(const std::vector<SignedSample>& samples) {
+    detail::SentencesToTrainOn read = detail::frames_to_train_on(samples, &options_);
+    reaches_ = read.reaches;
     std::vector<std::string> labels;
-    for (const SignedSample& sample : samples) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
       Signed one;
-      one.sample = &sample;
-      naming(sample.name, [&] {
-        one.frames = detail::sentence_frames(options_, sample.tracks, sample.scale_px);
-        require(sentences_.empty() || one.frames.cols() == sentences_.front().frames.cols(),
-                "rows do not have as many columns as those of the first sentence");
-        detail::check_spans(sample.words, one.frames.rows());
-      });
-      for (const SignedWordSpan& word : sample.words) labels.push_back(word.label);
+      one.sample = &samples[i];
+      one.frames = std::move(read.frames[i]);
+      for (const SignedWordSpan& word : samples[i].words) labels.push_back(word.label);
       sentences_.push_back(std::move(one));
     }
     labels_ = sorted_labels(labels);
@@ -202,7 +185,8 @@ class SentenceTrainer {
             stays,
             language_without(fold),
             codebook_without(fold),
-            std::move(words.variants)};
+            std::move(words.variants),
+            reaches_};
   }
 
   // One codebook a column.
@@ -305,6 +289,7 @@ class SentenceTrainer {
 
   SentenceRecognizerOptions options_;
   StopCheck should_stop_;
+  HandReaches reaches_;
   std::vector<std::string> labels_;
   std::vector<Signed> sentences_;
 };

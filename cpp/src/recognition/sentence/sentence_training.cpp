@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
+#include <utility>
 
 #include "hri/core/error.hpp"
 #include "hri/features/speech/dynamics.hpp"
@@ -29,6 +31,11 @@ bool shows_hand(ConstMatrixRefF rows, Eigen::Index t) {
   return shown;
 }
 
+// Whether any frame shows the point whose first column this is.
+bool shows(ConstMatrixRefF tracks, Eigen::Index column) {
+  return !tracks.col(column).array().isNaN().all();
+}
+
 MatrixF frames_of_rows(const TwoHandFeatureOptions& options, ConstMatrixRefF rows) {
   require(rows.rows() > 0 && rows.cols() > 0, "rows must have at least one row and one column");
   const Eigen::Index width = rows.cols();
@@ -49,7 +56,143 @@ MatrixF frames_of_rows(const TwoHandFeatureOptions& options, ConstMatrixRefF row
   return frames;
 }
 
+// The distance from the origin that all but a twentieth of the points keep within. Hands are
+// farthest from the head in rest: unlike the mean distance this hardly depends on what is signed.
+double reach(std::vector<double> distances) {
+  if (distances.empty()) return 0;
+  const auto place = distances.begin() +
+                     static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(distances.size() - 1));
+  std::nth_element(distances.begin(), place, distances.end());
+  return *place;
+}
+
+// Of the point in the columns from `column` on, from that in those from `origin` on.
+double reach_px(ConstMatrixRefF tracks, Eigen::Index column, Eigen::Index origin) {
+  std::vector<double> distances;
+  for (Eigen::Index t = 0; t < tracks.rows(); ++t) {
+    const double distance =
+        std::hypot(static_cast<double>(tracks(t, column)) - tracks(t, origin),
+                   static_cast<double>(tracks(t, column + 1)) - tracks(t, origin + 1));
+    if (!std::isnan(distance)) distances.push_back(distance);
+  }
+  return reach(std::move(distances));
+}
+
+// What is not looked at does not count.
+double scale_of(const TwoHandFeatureOptions& options, ConstMatrixRefF tracks,
+                const HandReaches& reaches) {
+  constexpr Eigen::Index kLeft = 0;
+  constexpr Eigen::Index kRight = 2;
+  constexpr Eigen::Index kReference = 4;
+  if (!options.use_left) {
+    MatrixF of_right = tracks;
+    of_right.leftCols(2).setConstant(std::numeric_limits<float>::quiet_NaN());
+    return hand_scale_px(of_right);
+  }
+  const double scale = hand_scale_px(tracks);
+  const bool left = shows(tracks, kLeft);
+  if (left && shows(tracks, kRight)) return scale;
+  const double usual = left ? reaches.left : reaches.right;
+  const double own = reach_px(tracks, left ? kLeft : kRight, kReference);
+  return usual > 0 && own > 0 ? own / usual : scale;
+}
+
+template <class Read>
+void naming(const std::string& name, Read&& read) {
+#if defined(__cpp_exceptions)
+  try {
+    std::forward<Read>(read)();
+  } catch (const InvalidArgument& error) {
+    fail(ErrorKind::invalid_argument, name + ": " + error.what());
+  }
+#else
+  (void)name;
+  std::forward<Read>(read)();
+#endif
+}
+
+bool knows(const SentenceFrames& frames, int column) {
+  return std::binary_search(frames.known_columns.begin(), frames.known_columns.end(), column);
+}
+
+// The first features of tracks are x and y of the right hand, then of the left one.
+bool shows_right(const SentenceFrames& frames) { return knows(frames, 0); }
+bool shows_left(const SentenceFrames& frames) { return knows(frames, 2); }
+
+std::vector<SentenceFrames> frames_of_all(const std::vector<SignedSample>& samples,
+                                          const SentenceRecognizerOptions& options) {
+  std::vector<SentenceFrames> frames;
+  for (const SignedSample& sample : samples) {
+    naming(sample.name, [&] {
+      frames.push_back(sentence_frames(options, sample.tracks, sample.scale_px, {}));
+      require(frames.back().features.cols() == frames.front().features.cols(),
+              "rows do not have as many columns as those of the first sentence");
+      check_spans(sample.words, frames.back().features.rows());
+    });
+  }
+  return frames;
+}
+
+// By the sentences that show both hands, in the units of the features.
+HandReaches reaches_of(const std::vector<SentenceFrames>& frames) {
+  std::vector<double> right;
+  std::vector<double> left;
+  for (const SentenceFrames& one : frames) {
+    if (!shows_right(one) || !shows_left(one)) continue;
+    for (Eigen::Index t = 0; t < one.features.rows(); ++t) {
+      right.push_back(std::hypot(one.features(t, 0), one.features(t, 1)));
+      left.push_back(std::hypot(one.features(t, 2), one.features(t, 3)));
+    }
+  }
+  return {reach(std::move(right)), reach(std::move(left))};
+}
+
+// Of every column over the frames of the sentences that know it.
+VectorD column_means(const std::vector<SentenceFrames>& frames) {
+  VectorD sums = VectorD::Zero(frames.front().features.cols());
+  VectorD counts = VectorD::Zero(sums.size());
+  for (const SentenceFrames& one : frames) {
+    for (const int c : one.known_columns) {
+      sums[c] += one.features.col(c).cast<double>().sum();
+      counts[c] += static_cast<double>(one.features.rows());
+    }
+  }
+  return sums.cwiseQuotient(counts.cwiseMax(1));
+}
+
 }  // namespace
+
+SentencesToTrainOn frames_to_train_on(const std::vector<SignedSample>& samples,
+                                      SentenceRecognizerOptions* options) {
+  SentencesToTrainOn result;
+  std::vector<SentenceFrames> frames = frames_of_all(samples, *options);
+  if (options->input == SentenceInput::tracks && !frames.empty()) {
+    require(std::any_of(frames.begin(), frames.end(), shows_right),
+            "tracks: no sentence shows the right hand; where signers sign with the left one alone, "
+            "give it as the right one, its x mirrored");
+    if (options->features.use_left && std::none_of(frames.begin(), frames.end(), shows_left)) {
+      options->features.use_left = options->features.use_relation = false;
+      frames = frames_of_all(samples, *options);
+    }
+    if (options->features.use_left) result.reaches = reaches_of(frames);
+  }
+  if (!std::all_of(frames.begin(), frames.end(), [](const auto& one) { return one.are_known(); })) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (!frames[i].are_known())
+        frames[i] =
+            sentence_frames(*options, samples[i].tracks, samples[i].scale_px, result.reaches);
+    }
+    const VectorD means = column_means(frames);
+    for (SentenceFrames& one : frames) {
+      for (Eigen::Index c = 0; c < means.size(); ++c) {
+        if (!knows(one, static_cast<int>(c)))
+          one.features.col(c).setConstant(static_cast<float>(means[c]));
+      }
+    }
+  }
+  for (SentenceFrames& one : frames) result.frames.push_back(std::move(one.features));
+  return result;
+}
 
 MultiStreamCodebook train_column_codebooks(ConstMatrixRefF frames, int num_codewords,
                                            const StopCheck& should_stop) {
@@ -87,14 +230,22 @@ double final_stay(const GaussianMixtureHmm& model, const std::vector<MatrixF>& s
   return visits > 0 ? std::min(1 - visits / frames, kLongestStay) : 0.5;
 }
 
-MatrixF sentence_frames(const SentenceRecognizerOptions& options, ConstMatrixRefF input,
-                        double scale_px) {
+SentenceFrames sentence_frames(const SentenceRecognizerOptions& options, ConstMatrixRefF input,
+                               double scale_px, const HandReaches& reaches) {
+  SentenceFrames result;
   if (options.input == SentenceInput::rows) {
     require(scale_px == 0, "scale_px is of tracks, rows have none");
-    return frames_of_rows(options.features, input);
+    result.features = frames_of_rows(options.features, input);
+    result.known_columns.resize(static_cast<std::size_t>(result.features.cols()));
+    std::iota(result.known_columns.begin(), result.known_columns.end(), 0);
+    return result;
   }
-  const TwoHandFeatureComputer features(options.features);
-  return scale_px == 0 ? features.compute(input) : features.compute(input, scale_px);
+  const TwoHandFeatureComputer computer(options.features);
+  result.known_columns = computer.known_columns(input);
+  require(!result.known_columns.empty(), "tracks: no frame shows the right hand");
+  const double scale = scale_px == 0 ? scale_of(options.features, input, reaches) : scale_px;
+  result.features = computer.compute(input, scale);
+  return result;
 }
 
 void check_spans(const std::vector<SignedWordSpan>& spans, Eigen::Index num_frames) {

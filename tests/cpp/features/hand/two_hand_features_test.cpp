@@ -55,6 +55,26 @@ TEST(TwoHandFeatures, HasPlacesPolarCoordinatesAndTheRelation) {
   EXPECT_EQ(out.row(0).tail(13).cwiseAbs().maxCoeff(), 0);  // one frame does not change
 }
 
+TEST(TwoHandFeatures, KnowsWhatDependsOnNoHandOutOfView) {
+  const TwoHandFeatureComputer computer(everything());
+  const auto known = [&computer](const MatrixF& tracks) { return computer.known_columns(tracks); };
+  EXPECT_EQ(known(row(140, 80, 70, 90)).size(), 26U);
+  EXPECT_EQ(known(rows({row(140, 80, 70, 90), row(kUnseen, kUnseen, 70, 90)})).size(), 26U);
+  const std::vector<int> right{0, 1, 4, 5, 6, 13, 14, 17, 18, 19};
+  EXPECT_EQ(known(row(kUnseen, kUnseen, 70, 90)), right);
+  const std::vector<int> left{2, 3, 7, 8, 9, 15, 16, 20, 21, 22};
+  EXPECT_EQ(known(row(140, 80, kUnseen, kUnseen)), left);
+  EXPECT_THROW(known(row(kUnseen, kUnseen, kUnseen, kUnseen)), InvalidArgument);
+  // What is known does not change with a hand that is elsewhere.
+  const MatrixF alone = computer.compute(row(kUnseen, kUnseen, 70, 90), 10);
+  const MatrixF both = computer.compute(row(140, 80, 70, 90), 10);
+  for (const int c : right) EXPECT_EQ(alone(0, c), both(0, c)) << c;
+  TwoHandFeatureOptions options;
+  options.use_left = false;
+  EXPECT_TRUE(
+      TwoHandFeatureComputer(options).known_columns(row(140, 80, kUnseen, kUnseen)).empty());
+}
+
 TEST(TwoHandFeatures, DeltasAreTheSlopesOfPlaces) {
   std::vector<MatrixF> parts;
   for (int t = 0; t < 9; ++t) parts.push_back(row(100, 60, 100.0F + 20.0F * t, 50));

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "hri/core/export.hpp"
 #include "hri/core/options.hpp"
@@ -56,13 +57,17 @@ class HRI_API TwoHandFeatureComputer {
   [[nodiscard]] int num_features() const { return num_static() * (1 + options_.delta_orders); }
   [[nodiscard]] const TwoHandFeatureOptions& options() const { return options_; }
 
+  /// Numbers of the features, rising, that do not depend on a hand which no frame of `tracks`
+  /// shows. Throws InvalidArgument as compute() does.
+  [[nodiscard]] std::vector<int> known_columns(ConstMatrixRefF tracks) const;
+
   /// Of `tracks` (num_frames, kNumTwoHandTrackColumns) into `out` (num_frames, num_features()): x
   /// and y of the right and of the left hand from the reference, by `scale_px`; polar coordinates,
   /// the relation; then HTK's deltas of these. A point out of sight stays where it was last seen,
-  /// before that where it is first seen; a hand never seen is at the reference. Allocates nothing.
-  /// Throws InvalidArgument for other shapes, values that are infinite or beyond 1e6, half a point,
-  /// no hand or no reference in any frame, hands that never leave the reference, and a scale that
-  /// is not above 0.
+  /// before that where it is first seen; a hand never seen is at the reference (known_columns()
+  /// tells). Allocates nothing. Throws InvalidArgument for other shapes, values that are infinite
+  /// or beyond 1e6, half a point, no hand or no reference in any frame, hands that never leave the
+  /// reference, and a scale that is not above 0.
   void compute(ConstMatrixRefF tracks, double scale_px, MatrixRefF out) const;
   [[nodiscard]] MatrixF compute(ConstMatrixRefF tracks, double scale_px) const;
   /// With the scale of the tracks themselves.

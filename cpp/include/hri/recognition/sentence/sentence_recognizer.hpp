@@ -110,13 +110,22 @@ struct SignVariant {
   std::vector<int> states;  ///< of the word's HMM, one a frame
 };
 
+/// How far hands are from the head, all but a twentieth of the frames, in lengths of the signer: of
+/// who shows one hand alone, the length is measured by it. 0: not known.
+struct HandReaches {
+  double right = 0;
+  double left = 0;
+};
+
 /// A sentence to train on. Words are in the order of time; they may overlap by some frames.
 struct SignedSample {
   /// (num_frames, kNumTwoHandTrackColumns), see TwoHandFeatureComputer; or rows of features of as
   /// many columns in every sentence, all NaN in a frame that shows no hand: those of the frame
   /// before stay, at the beginning those of the first frame that has some.
   MatrixF tracks;
-  double scale_px = 0;  ///< of the signer; 0: hand_scale_px() of the tracks. Rows have none: 0
+  /// Of the signer; 0: hand_scale_px() of the tracks, and where they show one hand alone, by how
+  /// far it reaches in the other sentences. Rows have none: 0.
+  double scale_px = 0;
   std::vector<SignedWordSpan> words;
   std::string group;  ///< signer or session: never both trained on and held out
   std::string name;   ///< what errors call it
@@ -143,16 +152,19 @@ class HRI_API SentenceRecognizer {
   /// From trained parts: `models` are left-right ones of the sorted `labels` and behind them the
   /// one of what lies between; `final_stays` the probability of each word to stay in its last
   /// state, and of what lies between to go on; `language` may be null; `codebook` is that of the
-  /// kind ptbhmm; `variants`, in the order of their words, take the place of the models of these.
+  /// kind ptbhmm; `variants`, in the order of their words, take the place of the models of these;
+  /// `reaches` are those of the sentences trained on.
   /// Throws InvalidArgument for parts that do not fit each other, and options out of
   /// range.
   SentenceRecognizer(const SentenceRecognizerOptions& options, std::vector<std::string> labels,
                      std::vector<GaussianMixtureHmm> models, const VectorD& final_stays,
                      std::shared_ptr<const NGramModel> language,
                      std::optional<MultiStreamCodebook> codebook = std::nullopt,
-                     std::vector<SignVariant> variants = {});
+                     std::vector<SignVariant> variants = {}, const HandReaches& reaches = {});
 
-  /// Throws InvalidArgument (naming the sentence) for tracks that TwoHandFeatureComputer refuses,
+  /// A hand that a sentence never shows is where it is on average in the others; where no sentence
+  /// shows the left hand, features.use_left of options() is false. Throws InvalidArgument (naming
+  /// the sentence) for tracks that TwoHandFeatureComputer refuses, no right hand in all sentences,
   /// rows that are none, differ in their columns, show no hand, or are NaN in part or infinite,
   /// words outside the frames, empty or not in the order of time, labels with white space in them,
   /// and where all frames lie in words; Interrupted.
@@ -172,7 +184,9 @@ class HRI_API SentenceRecognizer {
   static SentenceRecognizer from_model_file(const ModelFile& file);
 
   /// The sentence that tracks (num_frames, kNumTwoHandTrackColumns) or rows show; `scale_px` as in
-  /// training (0: of the tracks). Throws InvalidArgument as train() does.
+  /// training (0: of the tracks). Of a hand that no frame shows, nothing is compared: densities are
+  /// those of the other features, marginalised over its own. Throws InvalidArgument as train()
+  /// does.
   [[nodiscard]] RecognisedSentence recognise(ConstMatrixRefF tracks, double scale_px = 0) const;
   /// At most `count` (1..1000) sentences that differ in their words, the best first; none where no
   /// sentence covers all frames. Throws InvalidArgument as train() does, for other counts, and for
@@ -198,14 +212,14 @@ class HRI_API SentenceRecognizer {
   [[nodiscard]] const std::vector<GaussianMixtureHmm>& models() const { return *models_; }
   [[nodiscard]] const VectorD& final_stays() const { return final_stays_; }
   [[nodiscard]] const std::vector<SignVariant>& variants() const { return *variants_; }
+  [[nodiscard]] const HandReaches& reaches() const { return reaches_; }
 
  private:
   static SentenceRecognizer read(const ModelFile& file);
   void check_variants() const;
   [[nodiscard]] std::vector<GaussianMixtureHmm> make_chains();
-  [[nodiscard]] MatrixF frames_of(ConstMatrixRefF tracks, double scale_px) const;
-  [[nodiscard]] MatrixF log_emissions(ConstMatrixRefF frames) const;
-  [[nodiscard]] VectorD scores_of(ConstMatrixRefF frames) const;
+  [[nodiscard]] MatrixF log_emissions(ConstMatrixRefF tracks, double scale_px) const;
+  [[nodiscard]] VectorD scores_of(ConstMatrixRefF of_states) const;
   [[nodiscard]] MatrixD language_table() const;
   [[nodiscard]] ConnectedDecoder decoder_behind(ConstMatrixRefF tracks, double scale_px) const;
   [[nodiscard]] std::vector<DecodedWord> named(std::vector<DecodedWord> words) const;
@@ -215,6 +229,7 @@ class HRI_API SentenceRecognizer {
   SentenceRecognizerOptions options_;
   std::vector<std::string> labels_;
   VectorD final_stays_;
+  HandReaches reaches_;
   std::shared_ptr<const std::vector<GaussianMixtureHmm>> models_;
   std::shared_ptr<const std::vector<SignVariant>> variants_;
   // Of what is searched: the variants of a word, or the model of one without; what lies between.
