@@ -164,7 +164,7 @@ TEST(GestureRecognizer, KeepsWhatItSawHeldOutInItsFile) {
   const HeldOutReport& report = recognizer.held_out();
   ModelFile file = ModelFile::parse(recognizer.to_model_file().serialise(), "x");
   const HeldOutReport again = GestureRecognizer::from_model_file(file).held_out();
-  EXPECT_EQ(again.labels, report.labels);
+  ASSERT_EQ(again.labels, report.labels);
   EXPECT_EQ(again.confusion, report.confusion);
   EXPECT_EQ(again.false_reject_rate, report.false_reject_rate);
   EXPECT_EQ(again.num_others, report.num_others);
@@ -190,7 +190,7 @@ TEST(GestureRecognizer, KnowsNothingOfGesturesAddedSinceInWhatItSawHeldOut) {
   const GestureRecognizer recognizer = GestureRecognizer::train(known, {});
   const GestureRecognizer more = recognizer.with_gesture(added);
   EXPECT_EQ(more.labels().size(), 4U);
-  EXPECT_EQ(more.held_out().labels, recognizer.labels());
+  ASSERT_EQ(more.held_out().labels, recognizer.labels());
   EXPECT_EQ(more.held_out().confusion, recognizer.held_out().confusion);
   EXPECT_EQ(GestureRecognizer::from_model_file(more.to_model_file()).held_out().labels,
             recognizer.labels());
