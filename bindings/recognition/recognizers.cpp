@@ -106,6 +106,12 @@ hri::WordRecognizer train_words(
                                     others, embedding, embedded);
 }
 
+template <class Recognizer>
+std::optional<hri::HeldOutReport> held_out_of(const Recognizer& self) {
+  if (self.held_out().empty()) return std::nullopt;
+  return self.held_out();
+}
+
 void bind_held_out_report(py::module_& m) {
   py::class_<hri::ConfusedPair>(m, "ConfusedPair",
                                 "Two classes that are confused with one another.")
@@ -114,7 +120,7 @@ void bind_held_out_report(py::module_& m) {
       .def_readonly("rate", &hri::ConfusedPair::rate,
                     "Share of the samples decided for either that are the other.");
   py::class_<hri::HeldOutReport>(
-      m, "HeldOutReport", "What training saw on people held out; hri.HeldOutReport wraps it.")
+      m, "HeldOutReport", "What training saw on samples held out; hri.HeldOutReport wraps it.")
       .def_readonly("labels", &hri::HeldOutReport::labels, "Of the classes in training.")
       .def_property_readonly(
           "confusion",
@@ -122,8 +128,10 @@ void bind_held_out_report(py::module_& m) {
           "Counts, by true and by best class.")
       .def_readonly("false_reject_rate", &hri::HeldOutReport::false_reject_rate,
                     "Share of right decisions below the threshold.")
+      .def_readonly("num_others", &hri::HeldOutReport::num_others,
+                    "How many samples were treated as unknown.")
       .def_readonly("false_accept_rate", &hri::HeldOutReport::false_accept_rate,
-                    "Share of words treated as unknown that are above it.")
+                    "Share of these that are not below it; 0 without any.")
       .def("confused_pairs", &hri::HeldOutReport::confused_pairs,
            "List of ConfusedPair in falling order of their rate.");
 }
@@ -201,13 +209,8 @@ void bind_words(py::module_& m) {
           "is_calibrated",
           [](const hri::WordRecognizer& self) { return self.calibration().is_fitted(); },
           "Whether anything was held out to calibrate on; else nothing is rejected.")
-      .def_property_readonly(
-          "held_out",
-          [](const hri::WordRecognizer& self) -> std::optional<hri::HeldOutReport> {
-            if (self.held_out().empty()) return std::nullopt;
-            return self.held_out();
-          },
-          "HeldOutReport, or None.")
+      .def_property_readonly("held_out", &held_out_of<hri::WordRecognizer>,
+                             "HeldOutReport, or None.")
       .def_property_readonly("options", &hri::WordRecognizer::options,
                              "As passed, with defaults filled in.");
 }
@@ -313,6 +316,8 @@ void bind_gestures(py::module_& m) {
           "is_calibrated",
           [](const hri::GestureRecognizer& self) { return self.calibration().is_fitted(); },
           "Whether anything was held out to calibrate on; else nothing is rejected.")
+      .def_property_readonly("held_out", &held_out_of<hri::GestureRecognizer>,
+                             "HeldOutReport, or None.")
       .def_static("from_model_file", &hri::GestureRecognizer::from_model_file, py::arg("file"))
       .def("to_model_file", &hri::GestureRecognizer::to_model_file)
       .def_property_readonly("starts_at_rest", &hri::GestureRecognizer::starts_at_rest)

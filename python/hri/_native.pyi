@@ -6316,7 +6316,7 @@ class ConfusedPair:
 
 class HeldOutReport:
     """
-    What training saw on people held out; hri.HeldOutReport wraps it.
+    What training saw on samples held out; hri.HeldOutReport wraps it.
     """
     def confused_pairs(self) -> list[ConfusedPair]:
         """
@@ -6330,7 +6330,7 @@ class HeldOutReport:
     @property
     def false_accept_rate(self) -> float:
         """
-        Share of words treated as unknown that are above it.
+        Share of these that are not below it; 0 without any.
         """
     @property
     def false_reject_rate(self) -> float:
@@ -6341,6 +6341,11 @@ class HeldOutReport:
     def labels(self) -> list[str]:
         """
         Of the classes in training.
+        """
+    @property
+    def num_others(self) -> int:
+        """
+        How many samples were treated as unknown.
         """
 
 class SequenceModelOptions:
@@ -7079,6 +7084,11 @@ class GestureRecognizer:
     def with_gesture(
         self, label: str, features: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]]
     ) -> GestureRecognizer: ...
+    @property
+    def held_out(self) -> HeldOutReport | None:
+        """
+        HeldOutReport, or None.
+        """
     @property
     def is_calibrated(self) -> bool:
         """

@@ -39,9 +39,12 @@ def test_train_says_what_it_measured_on_people_held_out(
     assert found.num_samples == 18 and found.accuracy == np.trace(found.confusion) / 18
     said = capsys.readouterr().err
     assert f"of 18 recordings of people held out in training, {100 * found.accuracy:.1f} % are right" in said
+    assert "how many words that are not in the vocabulary are accepted was not measured" in said
+    assert found.num_others == 0 and found.false_accept_rate is None  # of two words neither can be left out
     assert main(["info", str(path)]) == 0
     printed = capsys.readouterr().out
     assert f"held_out accuracy\t{100 * found.accuracy:.1f} %\n" in printed and "added since" not in printed
+    assert "held_out false_accept_rate\tnot measured\n" in printed
     words.add_word("3", [hri.read_audio(spoken / "1_low_0.wav")])
     assert words.held_out is not None and words.held_out.labels == ("1", "2")
     words.save(path)
@@ -89,11 +92,22 @@ def test_one_recording_of_a_word_is_said_to_be_no_rejection(tmp_path: Path, few_
 
 
 def test_pairs_that_are_confused_are_named() -> None:
-    report = HeldOutReport(("go", "no", "up"), np.eye(3, dtype=np.int64), 0.02, 0.1, (ConfusedPair("go", "no", 0.25),))
-    rates, pair = report.lines()
+    pairs = (ConfusedPair("go", "no", 0.25),)
+    report = HeldOutReport(("go", "no", "up"), np.eye(3, dtype=np.int64), 0.02, 3, 0.1, pairs)
+    rates, pair = report.lines("word")
     assert "2.0 % of these are rejected as unknown, and 10.0 % of words" in rates
     assert pair.startswith("'go' and 'no' are hard to distinguish (25.0 % taken for one another)")
+    assert "choose another word for one of them" in pair and "choose another gesture" in report.lines("gesture")[1]
     assert report.to_dict()["confused_pairs"] == [{"first": "go", "second": "no", "rate": 0.25}]
+
+
+def test_no_rate_is_given_of_what_was_not_measured() -> None:
+    never_right = HeldOutReport(("go", "no"), np.array([[0, 1], [1, 0]]), 0.0, 0, None, ())
+    assert never_right.lines("gesture") == [
+        "of 2 recordings of people held out in training, 0.0 % are right; "
+        "how many gestures that are not in the vocabulary are accepted was not measured"
+    ]
+    assert never_right.to_dict()["false_accept_rate"] is None and never_right.to_dict()["num_others"] == 0
 
 
 def test_train_keeps_the_options_it_is_given(signed: Path) -> None:

@@ -199,6 +199,10 @@ Decision unknown_decision() {
 
 }  // namespace
 
+bool Calibration::accepts(float score) const {
+  return score >= static_cast<float>(threshold_) && score <= std::numeric_limits<float>::max();
+}
+
 Decision Calibration::decide(const VectorF& scores, float score,
                              const std::vector<std::string>& labels) const {
   require(!labels.empty() && labels.size() <= static_cast<std::size_t>(scores.size()),
@@ -215,7 +219,7 @@ Decision Calibration::decide(const VectorF& scores, float score,
   Decision d;
   for (const Eigen::Index c : order)
     d.nbest.push_back({labels[static_cast<std::size_t>(c)], p[c], scores[c]});
-  const bool accepted = score >= static_cast<float>(threshold_);
+  const bool accepted = accepts(score);
   d.status = accepted ? DecisionStatus::recognised : DecisionStatus::unknown;
   d.label = accepted ? d.nbest.front().label : enum_name(d.status);
   d.confidence = d.nbest.front().probability;

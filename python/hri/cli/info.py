@@ -20,7 +20,13 @@ from hri.cli.recognizers import default_model, embedding_option, load_embedding
 from hri.core.errors import Error
 from hri.io import ModelFile
 from hri.media import natural_key
-from hri.recognition import ConnectedWordRecognizer, SentenceRecognizer, WordRecognizer, load
+from hri.recognition import (
+    ConnectedWordRecognizer,
+    GestureRecognizer,
+    SentenceRecognizer,
+    WordRecognizer,
+    load,
+)
 
 _OF_SINGLE = ("word_recognizer", "subword_recognizer", "gesture_recognizer")
 _OF_SEVERAL = {"connected_word_recognizer": "connected", "sentence_recognizer": "sentences"}
@@ -94,7 +100,7 @@ def _model(path: str, embedding_path: str | None) -> dict[str, Any]:
     recognizer = load(path, embedding=load_embedding(embedding_path)) if kind is None else KINDS[kind].load(path)
     labels = sorted((str(label) for label in recognizer.classes_), key=natural_key)
     found: dict[str, Any] = {"mode": kind or recognizer.mode, "labels": labels}
-    if isinstance(recognizer, WordRecognizer) and recognizer.held_out is not None:
+    if isinstance(recognizer, WordRecognizer | GestureRecognizer) and recognizer.held_out is not None:
         found["held_out"] = {**recognizer.held_out.to_dict(), "labels": list(recognizer.held_out.labels)}
     if isinstance(recognizer, ConnectedWordRecognizer):
         found |= _sentences(recognizer)
@@ -165,6 +171,8 @@ def _flat(options: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]
 
 
 def _share(value: Any) -> str:
+    if value is None:
+        return "not measured"
     return f"{100 * value:.1f} %" if isinstance(value, float) else str(value)
 
 

@@ -151,8 +151,8 @@ def train(
         note(why_source)
     if faces not in (None, "never"):
         note("hands: of the person whose face is seen; wherever the model is used something must find faces")
-    report = recognizer.held_out if isinstance(recognizer, WordRecognizer) else None
-    for line in report.lines() if report is not None else []:
+    report = recognizer.held_out
+    for line in report.lines("word" if mode == "speech" else mode) if report is not None else []:
         note(line)
     if report is not None and _each_has_own_labels(dataset):
         note("every person alone recorded some label: recordings, not persons, were held out, and strangers fare worse")

@@ -66,6 +66,9 @@ class HRI_API Calibration {
   [[nodiscard]] Decision decide(const VectorF& scores, float score,
                                 const std::vector<std::string>& labels) const;
 
+  /// Whether a decision with `score` is recognised, not unknown; never of NaN or infinity.
+  [[nodiscard]] bool accepts(float score) const;
+
   /// Whether decisions on held-out people were there to learn from. Where none were, nothing is
   /// rejected, and probabilities are the softmax of the scores as they are: near 0 or 1 of
   /// log-likelihoods, whether right or wrong.

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What training saw on people held out: how often a recogniser is right, what its threshold rejects
-// and accepts, and which of its classes it confuses.
+// What training saw on samples held out: how often a recogniser is right, what its threshold
+// rejects and accepts, and which of its classes it confuses. Whole people are held out where every
+// class is left without them, else single recordings: then the rates are too good for other people.
 #pragma once
 
 #include <string>
@@ -11,6 +12,7 @@
 #include "hri/core/export.hpp"
 #include "hri/core/types.hpp"
 #include "hri/io/model_file.hpp"
+#include "hri/recognition/calibration.hpp"
 
 namespace hri {
 
@@ -30,8 +32,19 @@ struct HRI_API HeldOutReport {
   /// [true class][best class]: how many samples, whether rejected or not. Empty where nothing could
   /// be held out.
   MatrixF confusion;
-  double false_reject_rate = 0;  ///< share of right decisions below the threshold
-  double false_accept_rate = 0;  ///< share of words treated as unknown that are above it
+  double false_reject_rate = 0;  ///< share of right decisions below the threshold; 0 without any
+  /// How many samples were decided upon as if their class were not in the vocabulary. None where no
+  /// class could be left out, as of two: then nothing is known of what the threshold accepts.
+  int num_others = 0;
+  double false_accept_rate = 0;  ///< share of these that are not below the threshold; 0 without any
+
+  /// What came of `decisions` on samples held out, by classes of the names `labels`, and of those
+  /// whose scores are `others`: samples whose class was treated as unknown. Empty without
+  /// decisions.
+  static HeldOutReport from_decisions(std::vector<std::string> labels,
+                                      const std::vector<HeldOut>& decisions,
+                                      const std::vector<float>& others,
+                                      const Calibration& calibration);
 
   [[nodiscard]] bool empty() const { return confusion.size() == 0; }
   [[nodiscard]] int num_samples() const { return static_cast<int>(confusion.sum()); }

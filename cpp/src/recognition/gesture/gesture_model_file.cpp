@@ -22,6 +22,7 @@ ModelFile GestureRecognizer::to_model_file() const {
   file.set_text_list("labels", labels_);
   detail::write_options(options_, file);
   calibration_.write(file);
+  held_out_.write(file);
   detail::write_gesture_verifier(verifier_, file);
   scorer_->write(file);
   return file;
@@ -45,6 +46,7 @@ GestureRecognizer GestureRecognizer::read(const ModelFile& file) {
   if (result.labels_ != file.text_list("labels"))
     fail(ErrorKind::format, file.name() + ": labels are not sorted");
   result.calibration_ = Calibration::read(file);
+  result.held_out_ = HeldOutReport::read(file);
   result.scorer_ =
       detail::read_gesture_scorer(file, result.options_, static_cast<int>(result.labels_.size()));
   result.verifier_ = detail::read_gesture_verifier(file, result.scorer_->num_confidence_features());

@@ -9,7 +9,7 @@
 #include "hri/core/error.hpp"
 #include "hri/recognition/gesture/gesture_recognizer.hpp"
 #include "recognition/gesture/gesture_scorer.hpp"
-#include "recognition/gesture/gesture_verifier.hpp"
+#include "recognition/gesture/held_out_gestures.hpp"
 #include "recognition/recording_folds.hpp"
 
 namespace hri {
@@ -95,62 +95,26 @@ bool any_empty(const std::vector<std::vector<MatrixF>>& per_class) {
                      [](const auto& list) { return list.empty(); });
 }
 
-// What is learned from gestures that a scorer has not seen.
-class Trials {
- public:
-  Trials(const std::vector<GestureSample>& samples, const std::vector<int>& classes,
-         const std::vector<int>& folds)
-      : samples_(samples), classes_(classes), folds_(folds) {}
-
-  // A scorer of all classes decides on the gestures of a fold.
-  void decide(const detail::GestureScorer& scorer, int fold) {
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (folds_[i] != fold || samples_[i].features.rows() == 0) continue;
-      const MatrixF& rows = samples_[i].features;
-      const VectorF scores = scorer.scores(rows);
-      held_out_.push_back({scores, classes_[i], detail::verified_score({}, scorer, rows, scores)});
-      movement_.push_back(scorer.movement_score(rows));
-      confidence_features_.push_back(scorer.confidence_features(rows, scores));
-    }
+// What a scorer trained without a fold makes of the gestures in it.
+void decide_fold(const std::vector<GestureSample>& samples, const std::vector<int>& classes,
+                 const std::vector<int>& folds, int fold, const detail::GestureScorer& scorer,
+                 detail::HeldOutGestures* held_out) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (folds[i] == fold && samples[i].features.rows() > 0)
+      held_out->add_gesture(samples[i].features, classes[i], scorer);
   }
+}
 
-  // A scorer that knows nothing of the classes `left_out` decides on what the fold has of them.
-  void decide_unknown(const detail::GestureScorer& scorer, int fold, const ClassGroup& left_out) {
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const MatrixF& rows = samples_[i].features;
-      const bool unknown =
-          std::find(left_out.begin(), left_out.end(), classes_[i]) != left_out.end();
-      if (folds_[i] == fold && unknown && rows.rows() > 0)
-        unknown_.push_back(scorer.confidence_features(rows, scorer.scores(rows)));
-    }
+// What a scorer trained without a fold and the classes `left_out` makes of these in the fold.
+void decide_unknown(const std::vector<GestureSample>& samples, const std::vector<int>& classes,
+                    const std::vector<int>& folds, int fold, const ClassGroup& left_out,
+                    const detail::GestureScorer& scorer, detail::HeldOutGestures* held_out) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const bool unknown = std::find(left_out.begin(), left_out.end(), classes[i]) != left_out.end();
+    if (folds[i] == fold && unknown && samples[i].features.rows() > 0)
+      held_out->add_unknown(samples[i].features, scorer);
   }
-
-  // Weighs what speaks for right decisions; the score becomes what it says.
-  LogisticRegression learn_verifier() {
-    std::vector<VectorD> right;
-    for (std::size_t i = 0; i < held_out_.size(); ++i) {
-      Eigen::Index best = 0;
-      held_out_[i].scores.maxCoeff(&best);
-      if (best == held_out_[i].truth) right.push_back(confidence_features_[i]);
-    }
-    LogisticRegression verifier = detail::train_gesture_verifier(right, unknown_);
-    if (verifier.dim() == 0) return verifier;
-    for (std::size_t i = 0; i < held_out_.size(); ++i)
-      held_out_[i].score = detail::log_odds(verifier, confidence_features_[i], movement_[i]);
-    return verifier;
-  }
-
-  [[nodiscard]] const std::vector<HeldOut>& held_out() const { return held_out_; }
-
- private:
-  const std::vector<GestureSample>& samples_;
-  const std::vector<int>& classes_;
-  const std::vector<int>& folds_;
-  std::vector<HeldOut> held_out_;
-  std::vector<VectorD> confidence_features_;  // of held_out_
-  std::vector<float> movement_;               // the same
-  std::vector<VectorD> unknown_;              // of gestures whose class was left out
-};
+}
 
 }  // namespace
 
@@ -179,28 +143,26 @@ GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& sam
   }
   const int num_folds = *std::max_element(folds.begin(), folds.end()) + 1;
   const auto num_classes = static_cast<int>(result.labels_.size());
-  Trials trials(samples, classes, folds);
+  detail::HeldOutGestures held_out;
   for (int fold = 0; fold < num_folds; ++fold) {
     if (progress) progress(fold, num_folds + 1);
     const auto rest = by_class(samples, classes, folds, result.labels_.size(), fold);
     if (any_empty(rest)) continue;  // without every class there is nothing to calibrate on
     const auto scorer = detail::train_gesture_scorer(rest, result.options_, should_stop);
-    trials.decide(*scorer, fold);
+    decide_fold(samples, classes, folds, fold, *scorer, &held_out);
     if (scorer->num_confidence_features() == 0 || num_classes < 3) continue;
     for (const ClassGroup& left_out : left_out_groups(fold, num_classes, samples.size())) {
-      trials.decide_unknown(
-          *detail::train_gesture_scorer(without(rest, left_out), result.options_, should_stop),
-          fold, left_out);
+      const auto without_these =
+          detail::train_gesture_scorer(without(rest, left_out), result.options_, should_stop);
+      decide_unknown(samples, classes, folds, fold, left_out, *without_these, &held_out);
     }
   }
   if (progress) progress(num_folds, num_folds + 1);
   result.scorer_ = detail::train_gesture_scorer(all, result.options_, should_stop);
-  result.verifier_ = trials.learn_verifier();
-  RejectionRates rates;
-  rates.false_reject = options.false_reject_rate;
-  rates.max_false_reject = options.false_reject_rate;
-  rates.interpolate = true;
-  result.calibration_ = Calibration::fit(trials.held_out(), rates);
+  detail::GestureJudgement judgement = held_out.judge(options, result.labels_);
+  result.verifier_ = std::move(judgement.verifier);
+  result.calibration_ = std::move(judgement.calibration);
+  result.held_out_ = std::move(judgement.report);
   if (progress) progress(num_folds + 1, num_folds + 1);
   return result;
 }

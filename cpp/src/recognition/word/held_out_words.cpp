@@ -16,8 +16,6 @@ void move_behind(std::vector<T>* list, std::vector<T>* more) {
   std::move(more->begin(), more->end(), std::back_inserter(*list));
 }
 
-double share(int count, int of) { return of > 0 ? static_cast<double>(count) / of : 0.0; }
-
 Eigen::Index argmax(const VectorF& scores) {
   Eigen::Index best = 0;
   scores.maxCoeff(&best);
@@ -59,6 +57,7 @@ void HeldOutWords::append(HeldOutWords more) {
 }
 
 Judgement HeldOutWords::judge(const WordRecognizerOptions& options,
+                              const std::vector<std::string>& labels,
                               const MultiStreamScorer& scorer) {
   Judgement result;
   const auto num_words = static_cast<int>(words_left_out_.size());
@@ -73,7 +72,7 @@ Judgement HeldOutWords::judge(const WordRecognizerOptions& options,
   RejectionRates rates;
   rates.false_reject = rates.max_false_reject = false_reject_rate(options, others);
   result.calibration = Calibration::fit(decisions_, rates);
-  result.report = report(others, result.calibration);
+  result.report = report(labels, others, result.calibration);
   return result;
 }
 
@@ -105,32 +104,17 @@ double HeldOutWords::false_reject_rate(const WordRecognizerOptions& options,
 }
 
 // Of words as they were recorded, whatever the calibration learned from besides.
-HeldOutReport HeldOutWords::report(const std::vector<float>& others,
+HeldOutReport HeldOutWords::report(const std::vector<std::string>& labels,
+                                   const std::vector<float>& others,
                                    const Calibration& calibration) const {
-  HeldOutReport result;
-  const auto threshold = static_cast<float>(calibration.threshold());
-  int num_right = 0;
-  int num_rejected = 0;
-  int num_others = 0;
-  int num_accepted = 0;
+  std::vector<HeldOut> decisions;
+  std::vector<float> others_as_recorded;
   for (std::size_t i = 0; i < decisions_.size(); ++i) {
     if (!as_recorded_[i]) continue;
-    const HeldOut& decision = decisions_[i];
-    if (result.empty())
-      result.confusion = MatrixF::Zero(decision.scores.size(), decision.scores.size());
-    const Eigen::Index best = argmax(decision.scores);
-    result.confusion(decision.truth, best) += 1;
-    if (best == decision.truth) {
-      ++num_right;
-      if (decision.score < threshold) ++num_rejected;
-    }
-    if (i >= others.size()) continue;
-    ++num_others;
-    if (others[i] >= threshold) ++num_accepted;
+    decisions.push_back(decisions_[i]);
+    if (i < others.size()) others_as_recorded.push_back(others[i]);
   }
-  result.false_reject_rate = share(num_rejected, num_right);
-  result.false_accept_rate = share(num_accepted, num_others);
-  return result;
+  return HeldOutReport::from_decisions(labels, decisions, others_as_recorded, calibration);
 }
 
 }  // namespace hri::detail

@@ -36,14 +36,16 @@ class HeldOutWords {
   /// All of `more` behind these.
   void append(HeldOutWords more);
 
-  /// `scorer`: any of those that the words were added with.
+  /// `labels`: names of the classes. `scorer`: any of those that the words were added with.
   [[nodiscard]] Judgement judge(const WordRecognizerOptions& options,
+                                const std::vector<std::string>& labels,
                                 const MultiStreamScorer& scorer);
 
  private:
   [[nodiscard]] double false_reject_rate(const WordRecognizerOptions& options,
                                          const std::vector<float>& others) const;
-  [[nodiscard]] HeldOutReport report(const std::vector<float>& others,
+  [[nodiscard]] HeldOutReport report(const std::vector<std::string>& labels,
+                                     const std::vector<float>& others,
                                      const Calibration& calibration) const;
 
   std::vector<HeldOut> decisions_;

@@ -403,8 +403,7 @@ class WordTrainer {
 
   [[nodiscard]] WordRecognizer assemble(MultiStreamScorer scorer,
                                         detail::HeldOutWords held_out) const {
-    detail::Judgement judgement = held_out.judge(options_, scorer);
-    if (!judgement.report.empty()) judgement.report.labels = labels_;
+    detail::Judgement judgement = held_out.judge(options_, labels_, scorer);
     return {options_,
             labels_,
             std::move(scorer),

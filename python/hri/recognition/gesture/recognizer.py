@@ -17,6 +17,7 @@ from hri import _native
 from hri.core.errors import FormatError, InvalidArgument
 from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
+from hri.recognition.held_out_report import HeldOutReport
 from hri.recognition.inputs import ClipInput, as_frames, as_texts, each_clip
 from hri.recognition.keywords import GestureRecognizerKeywords
 from hri.recognition.loading import load_native
@@ -53,6 +54,8 @@ class GestureRecognizer(Recognizer):
     ----------
     classes_ : ndarray of str
         The labels, sorted; set by `fit` and `load`.
+    held_out : HeldOutReport or None
+        What training saw on people held out; None where nothing could be (see `is_calibrated`).
     faces : str or None
         Whether hands are those of the person whose face is seen, where one is: "auto", "never" or the path of a cascade
         (`hri.vision.faces.face_finder`). None, as at first: as the option ``use_faces`` says, without which there is no
@@ -160,6 +163,11 @@ class GestureRecognizer(Recognizer):
         return bool(self._trained.is_calibrated)
 
     @property
+    def held_out(self) -> HeldOutReport | None:
+        """What training saw on people held out, of the gestures it had then; None where nothing could be held out."""
+        return HeldOutReport.of(self._trained)
+
+    @property
     def is_dynamic(self) -> bool:
         """Whether it was trained on dynamic gestures, scored whole; frames of still signs vote, each by itself."""
         return bool(self._trained.is_dynamic)
@@ -230,7 +238,8 @@ class GestureRecognizer(Recognizer):
         return self
 
     def add_gesture(self, label: str, clips: Sequence[ClipInput]) -> GestureRecognizer:
-        """Add a gesture from few clips; three suffice. Rejection and calibration stay as they are.
+        """Add a gesture from few clips; three suffice. Rejection and calibration stay as they are, and so
+        does `held_out`, which knows nothing of it.
 
         Models that keep what they were trained on (``rbf``, ``knn``) are trained anew on that and the clips. For
         ``trajectory`` the mean of every other gesture stands for its clips, and what separates it from the others moves

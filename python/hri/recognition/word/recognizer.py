@@ -322,9 +322,8 @@ class WordRecognizer(Recognizer):
 
     @property
     def held_out(self) -> HeldOutReport | None:
-        """What training saw on people held out, of the words it had then; None where none could be held out."""
-        found = self._trained.held_out
-        return None if found is None else HeldOutReport.from_native(found)
+        """What training saw on people held out, of the words it had then; None where nothing could be held out."""
+        return HeldOutReport.of(self._trained)
 
     @classmethod
     def load(cls, path: str | PathLike[str], *, embedding: SpeechEmbedding | None = None) -> WordRecognizer:

@@ -26,6 +26,7 @@
 #include "hri/recognition/calibration.hpp"
 #include "hri/recognition/decision.hpp"
 #include "hri/recognition/gesture/gesture_features.hpp"
+#include "hri/recognition/held_out_report.hpp"
 #include "hri/recognition/training.hpp"
 
 namespace hri {
@@ -134,7 +135,8 @@ class HRI_API GestureRecognizer {
                                  const StopCheck& should_stop = {});
 
   /// The same with one gesture more, from few samples of it, all with one label that is new; three
-  /// suffice. Rejection and calibration stay. What is trained again depends on the model:
+  /// suffice. Rejection and calibration stay, and held_out() knows nothing of the new gesture. What
+  /// is trained again depends on the model:
   ///  - rbf, knn: the model keeps the rows that it was trained on, and is trained on all of them;
   ///  - trajectory: the mean trajectories of the others stand for their gestures, see
   ///    LinearSvm::with_class;
@@ -174,6 +176,11 @@ class HRI_API GestureRecognizer {
   [[nodiscard]] const std::vector<std::string>& labels() const { return labels_; }
   [[nodiscard]] const GestureRecognizerOptions& options() const { return options_; }
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
+  /// On gestures held out in training, of signers held out where every gesture is left without
+  /// them, else of recordings; empty where none could be held out. Gestures are also treated as
+  /// unknown where there are three or more and the model is rbf or trajectory: verifier and report
+  /// are made from the same of them. Gestures added since are not in it.
+  [[nodiscard]] const HeldOutReport& held_out() const { return held_out_; }
   /// What makes rows of features of observations, as its options say.
   [[nodiscard]] const GestureFeatureComputer& front_end() const { return *front_end_; }
 
@@ -199,6 +206,7 @@ class HRI_API GestureRecognizer {
   LogisticRegression
       verifier_;  // of the scorer's confidence features; empty where nothing was learned
   Calibration calibration_;
+  HeldOutReport held_out_;
 };
 
 }  // namespace hri

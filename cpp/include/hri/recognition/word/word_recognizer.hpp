@@ -220,8 +220,9 @@ class HRI_API WordRecognizer {
   [[nodiscard]] const MultiStreamScorer& scorer() const { return scorer_; }
   [[nodiscard]] const WordVerifier& verifier() const { return verifier_; }
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
-  /// On words of people held out in training, as recorded; empty where none could be held out.
-  /// Words added since are not in it.
+  /// On words held out in training, as recorded: of people where every word is left without them,
+  /// else of recordings; empty where none could be held out. Of three words or more each is also
+  /// treated as unknown. Words added since are not in it.
   [[nodiscard]] const HeldOutReport& held_out() const { return held_out_; }
 
  private:
