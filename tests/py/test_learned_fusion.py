@@ -365,7 +365,7 @@ def with_cell(row: int, column: int, value: float) -> NDArray[np.float64]:
         ("tree", "learner.nodes", with_cell(0, 0, 0.5), "learner.nodes: inputs must lie in -1..3"),
         ("tree", "learner.nodes", with_cell(0, 2, 0), "learner.nodes: a child that is no later node"),
         ("tree", "learner.nodes", with_cell(0, 3, len(NODES)), "learner.nodes: a child that is no later node"),
-        ("tree", "learner.nodes", with_cell(0, 4, 1.5), "learner.nodes: .* share outside"),
+        ("tree", "learner.nodes", with_cell(0, 4, 1.5), r"learner\.nodes: .* share outside"),
     ],
 )
 def test_hostile_files_are_refused_by_file_and_field(
@@ -392,10 +392,10 @@ def test_cut_and_damaged_files_are_refused(kind: str, tmp_path: Path) -> None:
     path = tmp_path / "damaged.hri"
     for size in (0, 7, 100, len(data) - 1):
         path.write_bytes(data[:size])
-        with pytest.raises(FormatError, match="damaged.hri"):
+        with pytest.raises(FormatError, match=r"damaged\.hri"):
             LearnedFusion.load(path)
     path.write_bytes(data[:-3] + bytes([data[-3] ^ 1]) + data[-2:])
-    with pytest.raises(FormatError, match="damaged.hri"):
+    with pytest.raises(FormatError, match=r"damaged\.hri"):
         LearnedFusion.load(path)
 
 
