@@ -198,7 +198,6 @@ GestureRecognizer GestureRecognizer::train(const std::vector<GestureSample>& sam
   result.verifier_ = trials.learn_verifier();
   RejectionRates rates;
   rates.false_reject = options.false_reject_rate;
-  rates.max_false_reject = options.false_reject_rate;
   rates.interpolate = true;
   result.calibration_ = Calibration::fit(trials.held_out(), rates);
   if (progress) progress(num_folds + 1, num_folds + 1);
