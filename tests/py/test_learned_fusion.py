@@ -347,8 +347,8 @@ def with_cell(row: int, column: int, value: float) -> NDArray[np.float64]:
 @pytest.mark.parametrize(
     ("kind", "name", "value", "message"),
     [
-        ("logistic", "kind", "word_recognizer", "the file holds 'word_recognizer'"),
-        ("logistic", "rule", "majority", "no kind of learned fusion 'majority'"),
+        ("logistic", "kind", "word_recognizer", "kind: the file holds 'word_recognizer'"),
+        ("logistic", "rule", "majority", "rule: no kind of learned fusion 'majority'"),
         ("product", "rule", "tree", "learner.nodes"),
         ("logistic", "rule", "product", "learner.weights"),
         ("logistic", "speech.slope", "-1", "speech.slope is -1.0"),
@@ -361,18 +361,29 @@ def with_cell(row: int, column: int, value: float) -> NDArray[np.float64]:
         ("anfis", "learner.centres", np.zeros((3, 2)), "learner.centres has shape"),
         ("anfis", "learner.widths", np.zeros((4, 2)), "learner.widths must be"),
         ("tree", "learner.nodes", np.zeros((2, 4)), "learner.nodes has shape"),
-        ("tree", "learner.nodes", with_cell(0, 0, 4), "inputs must lie in -1..3"),
-        ("tree", "learner.nodes", with_cell(0, 0, 0.5), "inputs must lie in -1..3"),
-        ("tree", "learner.nodes", with_cell(0, 2, 0), "no later node"),
-        ("tree", "learner.nodes", with_cell(0, 3, len(NODES)), "no later node"),
-        ("tree", "learner.nodes", with_cell(0, 4, 1.5), "share outside"),
+        ("tree", "learner.nodes", with_cell(0, 0, 4), "learner.nodes: inputs must lie in -1..3"),
+        ("tree", "learner.nodes", with_cell(0, 0, 0.5), "learner.nodes: inputs must lie in -1..3"),
+        ("tree", "learner.nodes", with_cell(0, 2, 0), "learner.nodes: a child that is no later node"),
+        ("tree", "learner.nodes", with_cell(0, 3, len(NODES)), "learner.nodes: a child that is no later node"),
+        ("tree", "learner.nodes", with_cell(0, 4, 1.5), r"learner\.nodes: .* share outside"),
     ],
 )
-def test_hostile_files_are_refused_by_field(kind: str, name: str, value: Any, message: str, tmp_path: Path) -> None:
+def test_hostile_files_are_refused_by_file_and_field(
+    kind: str, name: str, value: Any, message: str, tmp_path: Path
+) -> None:
     path = tmp_path / "hostile.hri"
     changed(kind, name, value).write(path)
-    with pytest.raises(FormatError, match=message):
+    with pytest.raises(FormatError, match=message) as refusal:
         LearnedFusion.load(path)
+    assert str(refusal.value).startswith(f"{path}: ") and str(refusal.value).count(str(path)) == 1
+    for given in (str(path), str(path).encode()):
+        with pytest.raises(FormatError) as again:
+            LearnedFusion.load(given)  # type: ignore[arg-type]
+        assert str(again.value) == str(refusal.value)
+    # What was not read from a file names the field alone.
+    with pytest.raises(FormatError, match=message) as of_bytes:
+        LearnedFusion.from_model_file(ModelFile.from_bytes(path.read_bytes(), "memory"))
+    assert str(path) not in str(of_bytes.value)
 
 
 @pytest.mark.parametrize("kind", ["logistic", "tree"])
@@ -381,10 +392,10 @@ def test_cut_and_damaged_files_are_refused(kind: str, tmp_path: Path) -> None:
     path = tmp_path / "damaged.hri"
     for size in (0, 7, 100, len(data) - 1):
         path.write_bytes(data[:size])
-        with pytest.raises(FormatError):
+        with pytest.raises(FormatError, match=r"damaged\.hri"):
             LearnedFusion.load(path)
     path.write_bytes(data[:-3] + bytes([data[-3] ^ 1]) + data[-2:])
-    with pytest.raises(FormatError):
+    with pytest.raises(FormatError, match=r"damaged\.hri"):
         LearnedFusion.load(path)
 
 

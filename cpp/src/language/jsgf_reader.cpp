@@ -44,6 +44,18 @@ GrammarPart nothing() {
   return std::make_shared<const GrammarExpression>(std::move(empty));
 }
 
+// Alternatives of weight 0 are never taken.
+void drop_impossible(std::vector<GrammarPart>* parts, std::vector<double>* weights) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < parts->size(); ++i) {
+    if (!((*weights)[i] > 0)) continue;
+    (*weights)[kept] = (*weights)[i];
+    (*parts)[kept++] = std::move((*parts)[i]);
+  }
+  parts->resize(kept);
+  weights->resize(kept);
+}
+
 }  // namespace
 
 void JsgfReader::refuse(std::int64_t line, const std::string& why) const {
@@ -214,8 +226,8 @@ GrammarPart JsgfReader::choice(std::size_t* at, int depth) {
       std::istringstream number(tokens_[*at].text);
       number.imbue(std::locale::classic());
       double weight = 0;
-      if (!(number >> weight) || !number.eof() || !(weight > 0) || !(weight <= 1e12))
-        refuse(tokens_[*at].line, "a weight must be a number above 0");
+      if (!(number >> weight) || !number.eof() || !(weight >= 0) || !(weight <= 1e12))
+        refuse(tokens_[*at].line, "a weight must be a number from 0 to 1e12");
       weights.push_back(weight);
       sum += weight;
       ++*at;
@@ -226,6 +238,8 @@ GrammarPart JsgfReader::choice(std::size_t* at, int depth) {
   }
   if (!weights.empty() && weights.size() != parts.size())
     refuse(line, "all alternatives have a weight, or none");
+  if (!weights.empty()) drop_impossible(&parts, &weights);
+  if (parts.empty()) refuse(line, "one of the alternatives must have a weight above 0");
   if (parts.size() == 1) return parts.front();
   const bool may_be_empty =
       std::any_of(parts.begin(), parts.end(), [](const GrammarPart& p) { return p->may_be_empty; });

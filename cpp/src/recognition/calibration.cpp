@@ -116,24 +116,11 @@ float quantile(const std::vector<float>& sorted, double share, bool interpolate)
   return (1 - part) * sorted[below] + part * above;
 }
 
-// Of all classes, from the scores of right decisions, sorted, and of other words.
-float threshold_of(const std::vector<float>& right, const RejectionRates& rates,
-                   std::vector<float> others) {
-  const float least = quantile(right, rates.false_reject, rates.interpolate);
-  if (others.empty() || rates.false_accept >= 1) return least;
-  const float most = std::max(least, quantile(right, rates.max_false_reject, rates.interpolate));
-  std::sort(others.begin(), others.end());
-  return std::clamp(quantile(others, 1 - rates.false_accept, rates.interpolate), least, most);
-}
-
 }  // namespace
 
-Calibration Calibration::fit(const std::vector<HeldOut>& held_out, const RejectionRates& rates,
-                             std::vector<float> others) {
+Calibration Calibration::fit(const std::vector<HeldOut>& held_out, const RejectionRates& rates) {
   require(rates.false_reject >= 0 && rates.false_reject <= 0.5,
           "false_reject_rate must lie in 0..0.5");
-  require(rates.max_false_reject <= 0.5, "max_false_reject_rate must lie in 0..0.5");
-  require(rates.false_accept >= 0 && rates.false_accept <= 1, "false_accept_rate must lie in 0..1");
   Calibration result;
   std::vector<float> right;
   for (const HeldOut& h : held_out) {
@@ -142,7 +129,7 @@ Calibration Calibration::fit(const std::vector<HeldOut>& held_out, const Rejecti
   if (right.empty()) return result;
   result.scale_ = all_right(held_out) ? scale_of_right(held_out) : best_scale(held_out);
   std::sort(right.begin(), right.end());
-  result.threshold_ = static_cast<double>(threshold_of(right, rates, std::move(others)));
+  result.threshold_ = static_cast<double>(quantile(right, rates.false_reject, rates.interpolate));
 
   const auto num_classes = static_cast<std::size_t>(held_out.front().scores.size());
   std::vector<std::vector<float>> right_of(num_classes);

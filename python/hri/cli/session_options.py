@@ -17,6 +17,7 @@ from hri.cli.connected import connected_model
 from hri.cli.faces import faces_option, look_for_faces
 from hri.cli.groups import FiniteRange, is_given, refuse_given
 from hri.cli.messages import note
+from hri.cli.motions import robot_option
 from hri.cli.recognizers import embedding_option, kept_model, load_embedding, load_signs, warn_of_stored
 from hri.core.errors import InvalidArgument
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
@@ -31,7 +32,7 @@ from hri.recognition import (
     WordRecognizer,
 )
 from hri.recognition.sentence.commands import MIN_CONFIDENCE
-from hri.robot import BACKENDS, ROBOTS, JointTable, NaoqiRobot, Robot, open_robot
+from hri.robot import BACKENDS, JointTable, NaoqiRobot, Robot, open_robot
 from hri.session import LabelMotions, Session, SessionOptions, read_motions
 from hri.vision.faces import face_finder
 
@@ -142,14 +143,7 @@ _OPTIONS = (
         help='What the robot does for labels that are no gestures: a line each, as in pinch = "small".',
     ),
     click.option("--stand", is_flag=True, help="The robot stands on its feet and can walk (pybullet)."),
-    click.option(
-        "--robot",
-        "table",
-        type=click.Choice(tuple(ROBOTS)),
-        default="hoap2",
-        show_default=True,
-        callback=lambda context, option, name: ROBOTS[name],
-    ),
+    robot_option,
 )
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hri.core.errors import FormatError, InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument, naming_model_file
 from hri.core.estimator import not_fitted
 from hri.core.suggest import did_you_mean
 from hri.fusion import vectors
@@ -227,14 +227,23 @@ class LearnedFusion:
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Self:
-        """Read what `save` wrote. Raises FormatError for anything else, IoError where it cannot be read."""
-        return cls.from_model_file(ModelFile.read(fspath(path)))
+        """Read what `save` wrote.
+
+        Raises
+        ------
+        FormatError
+            For anything else; it names the file and the field.
+        IoError
+            Where it cannot be read.
+        """
+        with naming_model_file(path):
+            return cls.from_model_file(ModelFile.read(fspath(path)))
 
     @classmethod
     def from_model_file(cls, file: ModelFile) -> Self:
         """The inverse of `to_model_file`. Raises FormatError that names the field."""
         if file.kind != FILE_KIND:
-            raise FormatError(f"the file holds '{file.kind}', not '{FILE_KIND}'")
+            raise FormatError(f"kind: the file holds '{file.kind}', not '{FILE_KIND}'")
         kind = file.text("rule")
         if kind not in KINDS:
             raise FormatError(f"rule: no kind of learned fusion {kind!r}; {did_you_mean(kind, KINDS)}")

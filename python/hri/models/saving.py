@@ -5,12 +5,12 @@
 from __future__ import annotations
 
 import json
-from os import PathLike, fsdecode, fspath
+from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from hri.core.errors import FormatError, InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument, naming_model_file
 from hri.core.estimator import Estimator
 from hri.core.files import parse_json
 from hri.io import ModelFile
@@ -85,12 +85,8 @@ class SavedEstimator(Estimator):
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Self:
         """Read what `save` wrote. Raises FormatError for anything else."""
-        name = fsdecode(path)
-        file = ModelFile.read(fspath(path))  # names the file by itself
-        try:
-            return cls.from_model_file(file)
-        except FormatError as error:
-            raise FormatError(str(error) if str(error).startswith(name) else f"{name}: {error}") from None
+        with naming_model_file(path):
+            return cls.from_model_file(ModelFile.read(fspath(path)))
 
     def __getstate__(self) -> bytes:
         return self.to_model_file().to_bytes()

@@ -265,9 +265,13 @@ class Pairer:
         for observation in waiting:
             other = self._streams[_OTHER[observation.mode]]
             until_s = observation.last_s + self._options.window_s
+            too_late = self._too_late(observation)
+            # What it may be paired with waits, too: only until something that is nearer is known, or is none.
+            if not too_late and any(_apart(observation, o) <= self._options.window_s for o in other.waiting):
+                continue
             if not other.present:
                 return observation, phrase("why_no_source", mode=phrase(_OTHER[observation.mode]))
-            if self._too_late(observation):
+            if too_late:
                 return observation, phrase("why_too_late", seconds=f"{self._options.max_wait_s:g}")
             if other.begun_s is not None and other.begun_s <= until_s:
                 continue

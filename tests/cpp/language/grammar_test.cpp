@@ -151,6 +151,40 @@ TEST(Grammar, MakesANetworkOfItsSentencesAlone) {
   EXPECT_THROW((void)grammar.network({"a"}), InvalidArgument);
 }
 
+// JSGF: "a zero weight indicates that the expansion is never spoken".
+TEST(Grammar, NeverTakesAlternativesOfWeightZero) {
+  using namespace testing_data;
+  const std::string rest = " b {kind=rest} | /1/ c ) | /0.0/ ( e | f );";
+  const Grammar grammar =
+      Grammar::parse(kHead + "public <s> = /2/ ( /3/ a {kind=first} | /0/ x | /0/" + rest, "file");
+  EXPECT_EQ(grammar.words(), (std::vector<std::string>{"a", "c"}));
+  EXPECT_EQ(grammar.sentences(), (std::vector<std::vector<std::string>>{{"a"}, {"c"}}));
+  EXPECT_EQ(slots_of(grammar, {"a"}), (Slots{{"kind", "first"}}));
+  for (const char* never : {"x", "b", "e", "f"}) EXPECT_FALSE(grammar.slots_of({never})) << never;
+  // Nothing that is never said can be empty, and be repeated for ever.
+  const Grammar repeated = Grammar::parse(kHead + "public <s> = ( /0/ <NULL> | /1/ a )+;", "file");
+  EXPECT_FALSE(repeated.slots_of({}));
+  EXPECT_TRUE(repeated.slots_of({"a", "a"}));
+  // The others share the weight among them: 3/4 and 1/4.
+  std::vector<WordChain> chains;
+  for (int m = 0; m < 2; ++m) chains.push_back(random_chain(1, 1, 1, false));
+  for (const int said : {0, 1}) {
+    MatrixF scores = MatrixF::Constant(3, 2, -50);
+    scores.col(said).setConstant(0);
+    ConnectedDecoder decoder(chains, grammar.network({"a", "c"}));
+    ConnectedDecoder plain(chains, WordNetwork::transcript({said}));
+    for (Eigen::Index t = 0; t < scores.rows(); ++t) {
+      decoder.push(row_span(scores, t));
+      plain.push(row_span(scores, t));
+    }
+    const DecodedSentence found = decoder.finish();
+    ASSERT_EQ(found.words.size(), 1U);
+    EXPECT_EQ(found.words[0].model, said);
+    EXPECT_NEAR(found.log_score, plain.finish().log_score + std::log(said == 0 ? 0.75 : 0.25),
+                1e-9);
+  }
+}
+
 TEST(Grammar, AllowsSilenceAndUnknownSentences) {
   using namespace testing_data;
   const Grammar grammar = Grammar::parse(kHead + "public <s> = a b;", "file");
@@ -186,7 +220,11 @@ TEST(Grammar, NamesFileAndLineOfWhatIsWrong) {
             "file: line 3: a tag is {slot} or {slot=value}, a slot letters, digits and _");
   EXPECT_EQ(refusal("public <a> = b {c=};"), "file: line 3: the tag of slot 'c' has no value");
   EXPECT_EQ(refusal("public <a> = /x/ b | /1/ c;"),
-            "file: line 3: a weight must be a number above 0");
+            "file: line 3: a weight must be a number from 0 to 1e12");
+  EXPECT_EQ(refusal("public <a> = /-1/ b | /1/ c;"),
+            "file: line 3: a weight must be a number from 0 to 1e12");
+  EXPECT_EQ(refusal("public <a> = /0/ b | /0.0/ c;"),
+            "file: line 3: one of the alternatives must have a weight above 0");
   EXPECT_EQ(refusal("public <a> = /1/ b | c;"),
             "file: line 3: all alternatives have a weight, or none");
   EXPECT_EQ(refusal("public <a> = b \"c;"), "file: line 3: a quotation does not end");

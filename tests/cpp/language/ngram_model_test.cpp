@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "hri/core/error.hpp"
 
@@ -75,6 +76,138 @@ TEST(NGramModel, IsWittenBellsFormula) {
   EXPECT_NEAR(probability(model, {"go"}, "left"), (2 + 2 * left) / (4 + 2), 1e-12);
   const double turn = (1 + 6.0 / 6) / (19 + 6);
   EXPECT_NEAR(probability(model, {"go"}, "turn"), 2 * turn / (4 + 2), 1e-12);
+}
+
+const std::vector<Sentence> kTiny{{"a", "b"}, {"a", "b"}, {"a", "c"}, {"b"}};
+
+double backoff(const NGramModel& model, const std::vector<std::string>& history) {
+  std::vector<int> numbers;
+  for (const std::string& h : history) numbers.push_back(model.index_of(h));
+  return std::exp(model.log_backoff(numbers));
+}
+
+// By hand. Counts: <s> a 3, <s> b 1, a b 2, a c 1, b </s> 3, c </s> 1.
+TEST(NGramModel, IsKneserNeysFormula) {
+  const NGramModel model = NGramModel::train(kTiny, {2, NGramSmoothing::kneser_ney});
+  // Of bigrams 3 were seen once and 1 twice: D = 3 / (3 + 2) = 0.6. Words were seen behind a 1, b
+  // 2, c 1, </s> 2 others, 6 in all: D = 2 / (2 + 4) = 1/3, the share of all 4 is 1/3 * 4/6 = 2/9.
+  EXPECT_NEAR(probability(model, {}, "a"), (1 - 1.0 / 3) / 6 + 2.0 / 9 / 4, 1e-12);
+  EXPECT_NEAR(probability(model, {}, "b"), 1.0 / 3, 1e-12);
+  EXPECT_NEAR(probability(model, {}, "c"), 1.0 / 6, 1e-12);
+  EXPECT_NEAR(probability(model, {}, "</s>"), 1.0 / 3, 1e-12);
+  EXPECT_NEAR(probability(model, {"a"}, "b"), (2 - 0.6) / 3 + 0.6 * 2 / 3 / 3, 1e-12);
+  EXPECT_NEAR(probability(model, {"a"}, "c"), (1 - 0.6) / 3 + 0.6 * 2 / 3 / 6, 1e-12);
+  EXPECT_NEAR(probability(model, {"a"}, "a"), 0.6 * 2 / 3 / 6, 1e-12);
+  EXPECT_NEAR(probability(model, {"<s>"}, "a"), (3 - 0.6) / 4 + 0.6 * 2 / 4 / 6, 1e-12);
+  EXPECT_NEAR(probability(model, {"<s>"}, "</s>"), 0.6 * 2 / 4 / 3, 1e-12);
+  EXPECT_NEAR(probability(model, {"b"}, "</s>"), (3 - 0.6) / 3 + 0.6 / 3 / 3, 1e-12);
+  EXPECT_NEAR(backoff(model, {"a"}), 0.4, 1e-12);
+  EXPECT_NEAR(backoff(model, {"<s>"}), 0.3, 1e-12);
+  EXPECT_NEAR(backoff(model, {"b"}), 0.2, 1e-12);
+  EXPECT_NEAR(backoff(model, {"c"}), 0.6, 1e-12);
+}
+
+// By hand. Of three words: <s> a b 2, <s> a c 1, a b </s> 2, a c </s> 1, <s> b </s> 1.
+TEST(NGramModel, CountsContextsInEveryOrderButTheHighest) {
+  const NGramModel model = NGramModel::train(kTiny, {3, NGramSmoothing::kneser_ney});
+  // Bigrams count what stands before them, b </s> 2 and the others 1; those from <s> their own, 3
+  // and 1. Four were seen once and one twice: D = 4 / (4 + 2) = 2/3. Of trigrams D = 3 / (3 + 4).
+  EXPECT_NEAR(probability(model, {"a"}, "b"), (1 - 2.0 / 3) / 2 + 2.0 / 3 / 3, 1e-12);
+  EXPECT_NEAR(probability(model, {"a"}, "c"), (1 - 2.0 / 3) / 2 + 2.0 / 3 / 6, 1e-12);
+  EXPECT_NEAR(probability(model, {"<s>"}, "a"), (3 - 2.0 / 3) / 4 + 2.0 / 3 * 2 / 4 / 6, 1e-12);
+  EXPECT_NEAR(probability(model, {"b"}, "</s>"), (2 - 2.0 / 3) / 2 + 2.0 / 3 / 2 / 3, 1e-12);
+  EXPECT_NEAR(probability(model, {"<s>", "a"}, "b"), 40.0 / 63, 1e-12);
+  EXPECT_NEAR(probability(model, {"<s>", "a"}, "c"), 17.0 / 63, 1e-12);
+  EXPECT_NEAR(probability(model, {"<s>", "a"}, "a"), 2.0 / 7 * (2.0 / 3 / 6), 1e-12);
+  EXPECT_NEAR(backoff(model, {"<s>", "a"}), 2.0 / 7, 1e-12);
+  EXPECT_NEAR(backoff(model, {"a", "b"}), 3.0 / 14, 1e-12);
+  EXPECT_NEAR(backoff(model, {"a"}), 2.0 / 3, 1e-12);
+}
+
+// Where no n-gram was seen twice, or none once, a half is taken.
+TEST(NGramModel, DiscountsAHalfWhereCountsOfCountsGiveNone) {
+  const NGramModel once = NGramModel::train({{"a"}}, {2, NGramSmoothing::kneser_ney});
+  EXPECT_NEAR(probability(once, {}, "a"), 0.5, 1e-12);
+  EXPECT_NEAR(probability(once, {"<s>"}, "a"), 0.5 + 0.5 * 0.5, 1e-12);
+  EXPECT_NEAR(backoff(once, {"<s>"}), 0.5, 1e-12);
+  const NGramModel twice = NGramModel::train({{"a"}, {"a"}}, {2, NGramSmoothing::kneser_ney});
+  EXPECT_NEAR(probability(twice, {"<s>"}, "a"), 1.5 / 2 + 0.25 * 0.5, 1e-12);
+  EXPECT_NEAR(backoff(twice, {"<s>"}), 0.25, 1e-12);
+  const NGramModel thrice =
+      NGramModel::train({{"a"}, {"a"}, {"a"}}, {2, NGramSmoothing::kneser_ney});
+  EXPECT_NEAR(backoff(thrice, {"<s>"}), 0.5 / 3, 1e-12);
+}
+
+// By hand: 11 words and ends of 4 kinds, a 3, b 3, c 1, </s> 4.
+TEST(NGramModel, IsWittenBellsFormulaInEveryOrder) {
+  const NGramModel model = NGramModel::train(kTiny, {3, NGramSmoothing::witten_bell});
+  EXPECT_NEAR(probability(model, {}, "a"), 4.0 / 15, 1e-12);
+  EXPECT_NEAR(probability(model, {}, "c"), 2.0 / 15, 1e-12);
+  EXPECT_NEAR(probability(model, {}, "</s>"), 5.0 / 15, 1e-12);
+  EXPECT_NEAR(probability(model, {"a"}, "b"), 38.0 / 75, 1e-12);
+  EXPECT_NEAR(probability(model, {"<s>"}, "a"), (3 + 2 * 4.0 / 15) / 6, 1e-12);
+  EXPECT_NEAR(probability(model, {"<s>", "a"}, "b"), 226.0 / 375, 1e-12);
+  EXPECT_NEAR(probability(model, {"<s>", "a"}, "a"), 0.4 * 0.4 * 4 / 15, 1e-12);
+  EXPECT_NEAR(backoff(model, {"a"}), 2.0 / 5, 1e-12);
+  EXPECT_NEAR(backoff(model, {"<s>", "a"}), 2.0 / 5, 1e-12);
+  EXPECT_NEAR(backoff(model, {"b", "</s>"}), 1, 0);  // nothing follows the end
+  // A word more: the share 4/15 is for 5 then.
+  const NGramModel more = NGramModel::train(kTiny, {1, NGramSmoothing::witten_bell}, {"d"});
+  EXPECT_NEAR(probability(more, {}, "d"), 4.0 / 75, 1e-12);
+  EXPECT_NEAR(probability(more, {}, "a"), 3.0 / 15 + 4.0 / 75, 1e-12);
+}
+
+TEST(NGramModel, HasWhatWasSeen) {
+  const NGramModel model = NGramModel::train(kTiny, {3, NGramSmoothing::kneser_ney});
+  EXPECT_EQ(model.num_ngrams(1), 5);  // <s> and </s>, too
+  EXPECT_EQ(model.num_ngrams(2), 6);
+  EXPECT_EQ(model.num_ngrams(3), 5);
+  EXPECT_THROW((void)model.num_ngrams(0), InvalidArgument);
+  EXPECT_THROW((void)model.num_ngrams(4), InvalidArgument);
+  const int a = model.index_of("a");
+  const int b = model.index_of("b");
+  const int c = model.index_of("c");
+  using History = std::vector<int>;
+  EXPECT_TRUE(model.has(History{}, a));
+  EXPECT_TRUE(model.has(History{a}, b));
+  EXPECT_FALSE(model.has(History{b}, a));
+  EXPECT_TRUE(model.has(History{model.start(), a}, c));
+  EXPECT_FALSE(model.has(History{a, a}, b));
+  EXPECT_FALSE(model.has(History{model.start(), model.start(), a}, b));
+  EXPECT_EQ(model.log_backoff(History{}), 0);
+  EXPECT_EQ(model.log_backoff(History{a, a}), 0);
+  EXPECT_EQ(model.log_backoff(History{model.start(), a, b}), 0);
+}
+
+TEST(NGramModel, TakesAsMuchOfAHistoryAsItKnows) {
+  const NGramModel model = NGramModel::train(kTiny, {3, NGramSmoothing::kneser_ney});
+  const auto log_p = [&](const std::vector<int>& history, const char* word) {
+    return model.log_probability(history, model.index_of(word));
+  };
+  const int a = model.index_of("a");
+  const int c = model.index_of("c");
+  const int start = model.start();
+  // The last two words count.
+  EXPECT_EQ(log_p({c, c, start, a}, "b"), log_p({start, a}, "b"));
+  EXPECT_NE(log_p({start, a}, "b"), log_p({a}, "b"));
+  // An unknown word ends it.
+  EXPECT_EQ(log_p({start, -1, a}, "b"), log_p({a}, "b"));
+  EXPECT_EQ(log_p({start, a, -1}, "b"), log_p({}, "b"));
+  // A history that was not seen costs nothing, one that was its back-off weight.
+  EXPECT_EQ(log_p({c, a}, "b"), log_p({a}, "b"));
+  EXPECT_NEAR(log_p({start, a}, "a"), std::log(2.0 / 7 * 2 / 3 / 6), 1e-12);
+}
+
+TEST(NGramModel, MeasuresItsFitByEveryWordAndEnd) {
+  const NGramModel model = NGramModel::train(kTiny, {2, NGramSmoothing::kneser_ney});
+  // a 0.65, b 0.6, </s> 13/15; then nowhere, and b without a history 1/3, </s> 13/15.
+  const NGramFit fit = model.fit_of({{"a", "b"}, {"nowhere", "b"}});
+  const double expected = 0.65 * 0.6 * 13 / 15 * (1.0 / 3) * 13 / 15;
+  EXPECT_NEAR(fit.log_probability, std::log(expected), 1e-12);
+  EXPECT_EQ(fit.num_words, 5);
+  EXPECT_EQ(fit.num_unknown, 1);
+  EXPECT_NEAR(fit.perplexity(), std::pow(expected, -1.0 / 5), 1e-12);
+  EXPECT_EQ(NGramFit{}.perplexity(), 0);
 }
 
 TEST(NGramModel, KnowsWordsOfTheVocabularyThatWereNotSeen) {

@@ -58,6 +58,62 @@ TEST(Calibration, IsNoSurerThanItsSamplesAllowWhereAllAreRight) {
   }
 }
 
+// Decisions between two classes that are right `num_right` times of `count`, all by the margin.
+std::vector<HeldOut> by_margin(int num_right, int count, float margin) {
+  std::vector<HeldOut> result;
+  for (int i = 0; i < count; ++i) {
+    VectorF scores = VectorF::Zero(2);
+    scores[i % 2] = margin;
+    result.push_back({scores, i < num_right ? i % 2 : 1 - i % 2, margin});
+  }
+  return result;
+}
+
+// Of the share p of right decisions by a margin m the likelihood p log s(am) + (1 - p) log s(-am),
+// s the logistic function, is largest at a = log(p / (1 - p)) / m.
+TEST(Calibration, FindsTheScaleOfTheLargestLikelihood) {
+  struct Case {
+    int num_right, count;
+  };
+  for (const Case& c : {Case{3, 4}, Case{9, 10}, Case{51, 100}, Case{999, 1000}}) {
+    const double odds = static_cast<double>(c.num_right) / (c.count - c.num_right);
+    for (const float margin : {0.0078125F, 0.5F, 1.0F, 37.0F, 4096.0F}) {
+      const double expected = std::log(odds) / static_cast<double>(margin);
+      if (expected < 1.1e-4 || expected > 900) continue;
+      const Calibration found = Calibration::fit(by_margin(c.num_right, c.count, margin), {});
+      // A likelihood in double is flat within the square root of its rounding.
+      EXPECT_NEAR(found.scale() / expected, 1, 1e-5) << c.num_right << " by " << margin;
+    }
+  }
+}
+
+// Its logarithm lies in -4..3; what lies beyond is at the border.
+TEST(Calibration, KeepsTheScaleWithinItsBorders) {
+  const auto log_scale = [](const std::vector<HeldOut>& samples) {
+    return std::log10(Calibration::fit(samples, {}).scale());
+  };
+  EXPECT_NEAR(log_scale(by_margin(3, 4, 1e-5F)), 3, 1e-9);    // wants 1e5
+  EXPECT_NEAR(log_scale(by_margin(3, 4, 4e5F)), -4, 1e-9);    // wants 3e-6
+  EXPECT_NEAR(log_scale(by_margin(1, 4, 100.0F)), -4, 1e-9);  // is more often wrong than right
+  EXPECT_NEAR(log_scale(by_margin(4, 4, 1e-5F)), 3, 1e-9);    // all are right, too
+  EXPECT_NEAR(log_scale(by_margin(4, 4, 4e5F)), -4, 1e-9);
+  // Just within them.
+  const auto at = [](double scale) { return static_cast<float>(std::log(3.0) / scale); };
+  EXPECT_NEAR(log_scale(by_margin(3, 4, at(990))), std::log10(990), 1e-5);
+  EXPECT_NEAR(log_scale(by_margin(3, 4, at(1.01e-4))), std::log10(1.01e-4), 1e-5);
+}
+
+// s(am) = (n + 1) / (n + 2) at a = log(n + 1) / m.
+TEST(Calibration, FindsTheScaleOfLaplacesRuleWhereAllAreRight) {
+  for (const int count : {1, 2, 50}) {
+    for (const float margin : {0.015625F, 1.0F, 1024.0F}) {
+      const double expected = std::log(count + 1.0) / static_cast<double>(margin);
+      EXPECT_NEAR(Calibration::fit(by_margin(count, count, margin), {}).scale() / expected, 1,
+                  1e-9);
+    }
+  }
+}
+
 TEST(Calibration, NeverRecognisesWhatIsNoNumber) {
   const Calibration c = Calibration::fit(held_out(1.0, 3000), RejectionRates{});
   const float nan = std::nanf("");
@@ -114,14 +170,14 @@ TEST(Calibration, SetsThresholdsBetweenFewScores) {
   scores[0] = 1;
   for (int i = 0; i < 24; ++i) samples.push_back({scores, 0, static_cast<float>(i)});
   const auto threshold = [&](double rate) {
-    RejectionRates rates{rate, rate};
+    RejectionRates rates{rate};
     rates.interpolate = true;
     return Calibration::fit(samples, rates).threshold();
   };
   EXPECT_NEAR(threshold(0.04), 0.30667, 1e-4);
   EXPECT_EQ(threshold(0), 0);
   EXPECT_NEAR(threshold(0.5), 11.5, 1e-4);
-  EXPECT_EQ(Calibration::fit(samples, {0.05, 0.05}).threshold(), 1);
+  EXPECT_EQ(Calibration::fit(samples, {0.05}).threshold(), 1);
 }
 
 // Of `count` samples of class 0 and as many of class 1, all decided with margin `right`, but
@@ -137,26 +193,6 @@ std::vector<HeldOut> with_false_alarms(int count, int num_wrong, float right, fl
     result.push_back({scores, truth, 1});
   }
   return result;
-}
-
-TEST(Calibration, RejectsMoreWhereOtherWordsWouldPass) {
-  const std::vector<HeldOut> samples = held_out(1.0, 1000);
-  const auto threshold = [&](const RejectionRates& rates, std::vector<float> others) {
-    return Calibration::fit(samples, rates, std::move(others)).threshold();
-  };
-  const double least = threshold({0.02, 0.02, 1}, {});
-  const double most = threshold({0.2, 0.2, 1}, {});
-  ASSERT_LT(least, most);
-  const std::vector<float> far(10, static_cast<float>(least - 1));
-  const std::vector<float> near(10, static_cast<float>(most + 1));
-  const auto between = static_cast<float>(0.5 * (least + most));
-  std::vector<float> mixed = far;
-  mixed.insert(mixed.end(), 10, between);
-  EXPECT_EQ(threshold({0.02, 0.2, 0.1}, far), least);
-  EXPECT_EQ(threshold({0.02, 0.2, 0.1}, near), most);
-  EXPECT_EQ(threshold({0.02, 0.2, 0.1}, mixed), static_cast<double>(between));
-  EXPECT_EQ(threshold({0.02, 0.2, 0.6}, mixed), least);
-  EXPECT_EQ(threshold({0.02, 0.2, 1}, near), least);
 }
 
 TEST(Calibration, PutsEachClassAboveItsFalseAlarms) {

@@ -27,10 +27,12 @@ class HRI_API Grammar {
  public:
   /// Reads a grammar: `#JSGF V1.0;`, `grammar name;`, rules `<name> = ...;`, of which any of the
   /// public ones is a sentence. ( ), [ ], |, *, +, /weights/ of alternatives and `<NULL>` mean what
-  /// they do in JSGF. A tag {slot=value} sets a slot where the expansion before it is said, {slot}
+  /// they do in JSGF; an alternative of weight 0 is never said, and its words are none of the
+  /// grammar's. A tag {slot=value} sets a slot where the expansion before it is said, {slot}
   /// sets it to the words said; of two of one slot the later one counts. Throws IoError, and
   /// FormatError naming file and line for another form, imports, rules that are not defined or hold
-  /// themselves, tags of another form, and what is repeated but may be empty.
+  /// themselves, tags of another form, alternatives that all have weight 0, and what is repeated
+  /// but may be empty.
   static Grammar load(const std::string& path);
   /// The same from memory; `name` stands for the path in messages.
   static Grammar parse(const std::string& text, const std::string& name);

@@ -25,11 +25,9 @@ struct HeldOut {
   float score = 0;
 };
 
-/// How often right decisions may be rejected, and other words accepted.
+/// How often right decisions may be rejected.
 struct RejectionRates {
-  double false_reject = 0.02;      ///< of right decisions: so many in any case
-  double max_false_reject = 0.02;  ///< and so many where others are accepted too often
-  double false_accept = 1;         ///< of other words
+  double false_reject = 0.02;  ///< share of right decisions
   /// Whether thresholds lie between scores, at the median-unbiased estimate of the quantile
   /// (Hyndman and Fan, "Sample quantiles in statistical packages", 1996, definition 8). Of few
   /// decisions, a threshold at one of them rejects more right ones than it was to.
@@ -49,15 +47,12 @@ class HRI_API Calibration {
 
   /// Fits the scale to the least negative log-likelihood of `held_out`, or, where all n of these
   /// are right, to their mean confidence (n + 1) / (n + 2), Laplace's rule of succession, as the
-  /// likelihood has no maximum then; and the threshold to the
-  /// quantile rates.false_reject (0..0.5) of the score of its correct decisions, or as far beyond,
-  /// up to rates.max_false_reject, as it takes to accept no more than rates.false_accept of
-  /// `others`, scores of words outside the vocabulary. A class threshold is the least confidence at
-  /// which the class keeps to kMaxFalseAlarmRate, or the largest that keeps to kMaxMissRate where
-  /// both cannot be met, but at least kMinClassThreshold. Where `held_out` is empty or never
-  /// right, nothing is fitted: see is_fitted().
-  static Calibration fit(const std::vector<HeldOut>& held_out, const RejectionRates& rates,
-                         std::vector<float> others = {});
+  /// likelihood has no maximum then; and the threshold to the quantile rates.false_reject (0..0.5)
+  /// of the score of its correct decisions. A class threshold is the least confidence at which the
+  /// class keeps to kMaxFalseAlarmRate, or the largest that keeps to kMaxMissRate where both cannot
+  /// be met, but at least kMinClassThreshold. Where `held_out` is empty or never right, nothing is
+  /// fitted: see is_fitted().
+  static Calibration fit(const std::vector<HeldOut>& held_out, const RejectionRates& rates);
 
   /// softmax(scale * scores), computed in float.
   [[nodiscard]] VectorF posterior(const VectorF& scores) const;

@@ -28,7 +28,6 @@ GestureJudgement HeldOutGestures::judge(const GestureRecognizerOptions& options,
   for (const Evidence& other : unknown_) others.push_back(score(result.verifier, other));
   RejectionRates rates;
   rates.false_reject = options.false_reject_rate;
-  rates.max_false_reject = options.false_reject_rate;
   rates.interpolate = true;
   result.calibration = Calibration::fit(decisions, rates);
   result.report = HeldOutReport::from_decisions(labels, decisions, others, result.calibration);

@@ -123,7 +123,7 @@ class SubwordTrainer {
     const int num_dealt = held_out.empty() ? deal_folds(options_.num_folds) : 0;
     for (int fold = 0; fold < num_dealt; ++fold) add_held_out(fold, samples, &held_out);
     RejectionRates rates;
-    rates.false_reject = rates.max_false_reject = options_.false_reject_rate;
+    rates.false_reject = options_.false_reject_rate;
     SubwordRecognizer result(options_, lexicon_,
                              detail::train_units(all_but(kNoFold), options_, should_stop_),
                              Calibration::fit(held_out, rates));

@@ -70,7 +70,7 @@ Judgement HeldOutWords::judge(const WordRecognizerOptions& options,
   for (const VectorD& features : as_unknown_)
     others.push_back(result.verifier.verification_score(features));
   RejectionRates rates;
-  rates.false_reject = rates.max_false_reject = false_reject_rate(options, others);
+  rates.false_reject = false_reject_rate(options, others);
   result.calibration = Calibration::fit(decisions_, rates);
   result.report = report(labels, others, result.calibration);
   return result;

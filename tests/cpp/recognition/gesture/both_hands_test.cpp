@@ -186,6 +186,52 @@ TEST(GestureStreamOfBothHands, DecidesOnMasksThatHoldBoth) {
   }
 }
 
+// Hands that were the left and the right one when the stream ended are so no longer.
+TEST(GestureStreamOfBothHands, ReportsOfTheNextStreamWhatANewOneWould) {
+  const GestureRecognizer recognizer = trained(GestureModel::trajectory);
+  const MaskSource source;
+  const auto scores_of = [](GestureStream* stream, const std::string& label, int frames,
+                            int shift) {
+    std::vector<float> scores;
+    const auto keep = [&](const std::vector<GestureEvent>& events) {
+      for (const GestureEvent& e : events) {
+        if (e.kind != GestureEventKind::segment) scores.push_back(e.decision.score);
+      }
+    };
+    for (int t = 0; t < frames; ++t) {
+      Pair pair = shown(label, std::clamp((t - 16) / (kFrames - 1.0), 0.0, 1.0), 2);
+      pair.left_x += shift;
+      pair.right_x += shift;
+      std::vector<std::uint8_t> bgr;
+      for (const std::uint8_t v : drawn(pair).pixels) bgr.insert(bgr.end(), 3, v);
+      keep(
+          stream->push({bgr.data(), kWidth, kHeight, 3, std::ptrdiff_t{3} * kWidth}, t * kFrame_s));
+    }
+    keep(stream->finish());
+    return scores;
+  };
+  for (const std::string& label : kLabels) {
+    GestureStream fresh(recognizer, source);
+    const std::vector<float> expected = scores_of(&fresh, label, 40, 0);
+    ASSERT_FALSE(expected.empty());
+    for (const bool interrupted : {false, true}) {
+      GestureStream used(recognizer, source);
+      // Both hands are far to the left, where the next left one is the nearest to the right one.
+      for (const int shift : {-110, 60}) {
+        std::vector<float> ignored = scores_of(&used, "apart", 4, shift);
+        if (interrupted) {
+          std::vector<std::uint8_t> bgr;
+          for (const std::uint8_t v : drawn({140.0 + shift, 260.0 + shift, true}).pixels)
+            bgr.insert(bgr.end(), 3, v);
+          used.push({bgr.data(), kWidth, kHeight, 3, std::ptrdiff_t{3} * kWidth}, 0);
+          used.interrupt();
+        }
+        EXPECT_EQ(scores_of(&used, label, 40, 0), expected) << label << " " << shift;
+      }
+    }
+  }
+}
+
 // A wrist and straight fingers, in two forms.
 MatrixF joints(double x, double spread) {
   MatrixF points(kNumLandmarks, 2);

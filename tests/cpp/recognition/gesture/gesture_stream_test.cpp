@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
 #include "features/hand_testing.hpp"
 #include "hri/core/error.hpp"
 
@@ -30,6 +35,7 @@ class OneHandStream : public HandStream {
   HandObservation found_;
 };
 
+// Where a hand is; none below 0.
 struct Place {
   double x, y;
 };
@@ -107,7 +113,7 @@ Found watch(const GestureRecognizer& recognizer, const Way& way, int gone = 0) {
         {bgr.data(), mask.width_px, mask.height_px, 3, std::ptrdiff_t{3} * mask.width_px}, time_s));
     time_s += kPeriod_s;
   };
-  for (const Place& p : way) push(hand(2, p.x, p.y, 0.6));
+  for (const Place& p : way) push(p.x < 0 ? GreyImage(200, 200) : hand(2, p.x, p.y, 0.6));
   for (int i = 0; i < gone; ++i) push(GreyImage(200, 200));
   keep(stream.finish());
   return found;
@@ -192,6 +198,87 @@ TEST(GestureStream, ForgetsWhatAStallInterrupted) {
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].segment.reason, GestureSegmentReason::stalled);
   EXPECT_TRUE(stream.finish().empty());
+}
+
+// All events of what is shown from 0 s on, as text to the last digit.
+std::vector<std::string> reported(GestureStream* stream, const Way& way, bool to_the_end) {
+  std::vector<std::string> found;
+  const auto keep = [&](const std::vector<GestureEvent>& events) {
+    for (const GestureEvent& e : events) {
+      std::ostringstream text;
+      text.precision(17);
+      text << enum_name(e.kind) << " " << enum_name(e.segment.kind) << " "
+           << enum_name(e.segment.reason) << " " << e.segment.first_s << " " << e.segment.last_s
+           << " " << e.segment.from_rest << " " << e.decision.label << " " << e.decision.score;
+      for (const auto& entry : e.decision.nbest) text << " " << entry.label << entry.probability;
+      found.push_back(text.str());
+    }
+  };
+  double time_s = 0;
+  for (const Place& p : way) {
+    const GreyImage mask = p.x < 0 ? GreyImage(200, 200) : hand(2, p.x, p.y, 0.6);
+    std::vector<std::uint8_t> bgr;
+    for (const std::uint8_t v : mask.pixels) bgr.insert(bgr.end(), 3, v);
+    keep(stream->push({bgr.data(), 200, 200, 3, 600}, time_s));
+    time_s += kPeriod_s;
+  }
+  if (to_the_end) keep(stream->finish());
+  return found;
+}
+
+// In a rest, a stroke, the pause behind it with a preliminary decision, the second stroke, the rest
+// that settles, and after the hand has gone.
+TEST(GestureStream, ReportsOfTheNextStreamWhatANewOneWould) {
+  const GestureRecognizer recognizer = trained(true, 10);
+  const auto made = [&] {
+    GestureStreamOptions options = GestureStream::options_for(recognizer);
+    options.partial_interval_s = 0.4;
+    return GestureStream(recognizer, std::make_unique<OneHandStream>(), options);
+  };
+  Way before = shown("right", 70, true, 20);
+  go(&before, before.back(), 0, 14);
+  before.insert(before.end(), 12, {-1, -1});
+  // It begins where the other one may have been, and pauses, too.
+  Way next = shown("down", 60, true, 18);
+  go(&next, next.back(), 0, 14);
+  GestureStream fresh = made();
+  const std::vector<std::string> expected = reported(&fresh, next, true);
+  ASSERT_GE(expected.size(), 8U);
+  for (const std::size_t size : {25U, 40U, 48U, 66U}) {
+    ASSERT_LE(size, before.size());
+    for (const bool interrupted : {false, true}) {
+      GestureStream used = made();
+      reported(&used, {before.begin(), before.begin() + static_cast<std::ptrdiff_t>(size)}, false);
+      if (interrupted) {
+        used.interrupt();
+      } else {
+        used.finish();
+      }
+      EXPECT_TRUE(used.finish().empty());
+      EXPECT_TRUE(used.interrupt().empty());
+      EXPECT_EQ(reported(&used, next, true), expected) << size << " " << interrupted;
+    }
+  }
+}
+
+// What follows a hand that has gone for longer than a pause is as in a new stream, but later.
+TEST(GestureStream, ReportsOfTheNextHandWhatANewStreamWould) {
+  const GestureRecognizer recognizer = trained(true, 10);
+  Way next = shown("down", 60, true, 18);
+  const Found alone = watch(recognizer, next, 12);
+  const std::vector<std::string>& expected = alone.labels;
+  ASSERT_FALSE(expected.empty());
+  Way both = shown("right", 70, true, 20);
+  go(&both, both.back(), 0, 14);
+  both.insert(both.end(), 80, {-1, -1});
+  both.insert(both.end(), next.begin(), next.end());
+  const Found found = watch(recognizer, both, 12);
+  ASSERT_GT(found.labels.size(), expected.size());
+  const std::size_t more = found.labels.size() - expected.size();
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(found.labels[more + i], expected[i]);
+    EXPECT_EQ(found.decisions[more + i].score, alone.decisions[i].score);
+  }
 }
 
 TEST(GestureStream, RefusesOptionsOutOfRange) {
