@@ -56,8 +56,8 @@ MatrixF frames_of_rows(const TwoHandFeatureOptions& options, ConstMatrixRefF row
   return frames;
 }
 
-// The distance from the origin that all but a twentieth of the points keep within. Hands are
-// farthest from the head in rest: unlike the mean distance this hardly depends on what is signed.
+// The distance from the origin that all but a twentieth of the points keep within. Hands at rest
+// are as far from the head as they get: unlike the mean distance this hardly depends on the signs.
 double reach(std::vector<double> distances) {
   if (distances.empty()) return 0;
   const auto place = distances.begin() +
