@@ -56,8 +56,9 @@ MatrixF frames_of_rows(const TwoHandFeatureOptions& options, ConstMatrixRefF row
   return frames;
 }
 
-// The distance from the origin that all but a twentieth of the points keep within. Hands at rest
-// are as far from the head as they get: unlike the mean distance this hardly depends on the signs.
+// The distance from the origin that all but a twentieth of the points keep within. A hand that
+// rests is about as far from the head as it gets: unlike the mean distance this hardly depends on
+// the signs.
 double reach(std::vector<double> distances) {
   if (distances.empty()) return 0;
   const auto place = distances.begin() +

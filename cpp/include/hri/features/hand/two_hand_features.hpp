@@ -64,10 +64,10 @@ class HRI_API TwoHandFeatureComputer {
   /// Of `tracks` (num_frames, kNumTwoHandTrackColumns) into `out` (num_frames, num_features()): x
   /// and y of the right and of the left hand from the reference, by `scale_px`; polar coordinates,
   /// the relation; then HTK's deltas of these. A point out of sight stays where it was last seen,
-  /// before that where it is first seen; a hand never seen is at the reference (known_columns()
-  /// tells). Allocates nothing. Throws InvalidArgument for other shapes, values that are infinite
-  /// or beyond 1e6, half a point, no hand or no reference in any frame, hands that never leave the
-  /// reference, and a scale that is not above 0.
+  /// before that where it is first seen; a hand never seen is at the reference (see
+  /// known_columns()). Allocates nothing. Throws InvalidArgument for other shapes, values that are
+  /// infinite or beyond 1e6, half a point, no hand or no reference in any frame, hands that never
+  /// leave the reference, and a scale that is not above 0.
   void compute(ConstMatrixRefF tracks, double scale_px, MatrixRefF out) const;
   [[nodiscard]] MatrixF compute(ConstMatrixRefF tracks, double scale_px) const;
   /// With the scale of the tracks themselves.
