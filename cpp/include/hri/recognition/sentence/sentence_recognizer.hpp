@@ -40,7 +40,7 @@ struct HRI_API SentenceRecognizerOptions {
   SentenceInput input = SentenceInput::tracks;
   TwoHandFeatureOptions features;
   SequenceModelKind model = SequenceModelKind::hmm;
-  int num_codewords = 32;
+  int num_codewords = 64;
   int frames_per_state = 3;
   int max_states = 8;
   int max_iterations = 8;
