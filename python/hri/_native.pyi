@@ -9595,7 +9595,7 @@ class SentenceRecognizerOptions:
         what is computed of the tracks; of rows, only deltas are appended
     model : {'hmm', 'ptbhmm'}, default 'hmm'
         kind of the models; ptbhmm: the same densities as possibilities over codewords
-    num_codewords : int, default 32
+    num_codewords : int, default 64
         codewords of every column of the features (ptbhmm); 2..4096
     frames_per_state : int, default 3
         a word has a state for so many frames of its mean length; 0: 2, 3 or 4, chosen on sentences held out; 0..100
@@ -9641,7 +9641,7 @@ class SentenceRecognizerOptions:
         input: typing.Literal["tracks", "rows"] = "tracks",
         features: TwoHandFeatureOptions | collections.abc.Mapping[str, typing.Any] = ...,
         model: typing.Literal["hmm", "ptbhmm"] = "hmm",
-        num_codewords: int = 32,
+        num_codewords: int = 64,
         frames_per_state: int = 3,
         max_states: int = 8,
         max_iterations: int = 8,
