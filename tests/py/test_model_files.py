@@ -211,6 +211,7 @@ except _native.IoError as error:
 SEEDS = sorted((Path(__file__).resolve().parents[1] / "fuzz" / "seeds" / "model_fuzz").glob("*.hri"))
 READERS = {
     "connected_word_recognizer": hri.ConnectedWordRecognizer,
+    "gesture_recognizer": hri.GestureRecognizer,
     "sentence_recognizer": hri.SentenceRecognizer,
     "subword_recognizer": hri.SubwordRecognizer,
     "word_recognizer": hri.WordRecognizer,

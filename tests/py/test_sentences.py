@@ -152,7 +152,7 @@ def test_possibility_theory_models_read_the_same_words(sentences: list[Sentence]
     )
     signs.save(tmp_path / "signs.hri")
     loaded = SentenceRecognizer.load(tmp_path / "signs.hri")
-    assert (loaded.options.model, loaded.options.num_codewords) == ("ptbhmm", 32)
+    assert (loaded.options.model, loaded.options.num_codewords) == ("ptbhmm", 64)
     for seed, words in enumerate((["CAT", "DOG"], ["BALL", "BALL", "DOG", "CAT"]), 20):
         tracks, spans = signed(words, seed)
         assert list(loaded.recognise(tracks).labels) == words

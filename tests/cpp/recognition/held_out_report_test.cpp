@@ -33,7 +33,7 @@ Calibration calibration() {
   VectorF scores(2);
   scores << 1, 0;
   RejectionRates rates;
-  rates.false_reject = rates.max_false_reject = 0;
+  rates.false_reject = 0;
   return Calibration::fit({{scores, 0, 2}, {scores, 0, 4}, {scores, 1, 0}}, rates);
 }
 
