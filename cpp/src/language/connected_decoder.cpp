@@ -9,33 +9,72 @@
 
 #include "hri/core/error.hpp"
 #include "language/search_network.hpp"
+#include "language/token_chain.hpp"
+#include "language/token_kernels.hpp"
 #include "language/word_records.hpp"
 
 namespace hri {
 namespace {
 
-using detail::ChainStep;
 using detail::kImpossible;
-using detail::SearchChain;
+using detail::kTokenBlock;
 using detail::SearchNetwork;
 using detail::Token;
+using detail::TokenChain;
+using detail::Tokens;
 
 constexpr std::int64_t kDecideEvery = 16;  // frames
 
-// A word of the network, and which of its states have tokens: first_active up to, not with,
+// A word of the network, and which blocks of its states have tokens: first_active up to, not with,
 // end_active; none where these are equal.
-struct ActiveWord : detail::SearchWord {
+struct ActiveWord {
+  int model = 0;
+  int node = 0;
+  std::size_t first_state = 0;  // of those of all words, which are padded to blocks
   int first_active = 0;
   int end_active = 0;
 
   [[nodiscard]] bool is_active() const { return first_active < end_active; }
 };
 
-// What arrives at a node, and the word whose end it is; -1: it has a record already.
-struct Arrival {
-  Token token;
-  int origin = -1;
+// Arcs from one node to several in a row.
+struct ArcRow {
+  int from;
+  int first_to;
+  std::vector<double> log_weights;
 };
+
+std::vector<ArcRow> rows_of(const std::vector<WordNetwork::Arc>& arcs) {
+  std::vector<ArcRow> rows;
+  for (const WordNetwork::Arc& arc : arcs) {
+    const bool goes_on =
+        !rows.empty() && rows.back().from == arc.from &&
+        rows.back().first_to + static_cast<int>(rows.back().log_weights.size()) == arc.to;
+    if (!goes_on) rows.push_back({arc.from, arc.to, {}});
+    rows.back().log_weights.push_back(arc.log_weight);
+  }
+  return rows;
+}
+
+// Memory of tokens.
+struct TokenRow {
+  std::vector<double> scores;
+  std::vector<std::int64_t> origins;
+
+  explicit TokenRow(std::size_t size = 0) : scores(size, kImpossible), origins(size, 0) {}
+
+  [[nodiscard]] Tokens from(std::size_t first) {
+    return {scores.data() + first, origins.data() + first};
+  }
+  [[nodiscard]] Token at(std::size_t i) const {
+    return {scores[i], static_cast<std::int32_t>(origins[i])};
+  }
+  void clear() { std::fill(scores.begin(), scores.end(), kImpossible); }
+};
+
+// What arrives at a node comes from a record, or from the end of a word that has none yet: the
+// number of the word, complemented.
+constexpr std::int64_t end_of_word(std::size_t word) { return ~static_cast<std::int64_t>(word); }
 
 }  // namespace
 
@@ -71,98 +110,92 @@ struct ConnectedDecoder::State {
         const ConnectedDecoderOptions& of_decoder)
       : options(validated(of_decoder)),
         search(chains, network, options),
+        arcs(rows_of(search.arcs)),
         records(std::max(256, 2 * network.num_nodes())) {
-    for (const detail::SearchWord& word : search.words) words.push_back({word, 0, 0});
-    const auto num_states = static_cast<std::size_t>(search.num_states);
-    tokens.resize(num_states);
-    next_tokens.resize(num_states);
-    arrivals.resize(search.word_of_node.size());
+    std::size_t margin = kTokenBlock;
+    for (const detail::SearchChain& chain : search.models) {
+      models.emplace_back(chain);
+      margin = std::max(margin, static_cast<std::size_t>(models.back().margin()));
+    }
+    std::size_t num_states = margin;
+    for (const detail::SearchWord& word : search.words) {
+      words.push_back({word.model, word.node, num_states});
+      num_states += num_padded(words.back());
+    }
+    tokens = TokenRow(num_states + margin);
+    next_tokens = tokens;
+    arrivals = TokenRow(search.word_of_node.size());
+    emissions.assign(static_cast<std::size_t>(search.num_emissions) + kTokenBlock, 0);
     exits.resize(words.size());
     exit_records.resize(words.size());
     begin();
   }
 
-  [[nodiscard]] Token& token_at(const ActiveWord& word, int state) {
-    return tokens[static_cast<std::size_t>(word.first_state) + static_cast<std::size_t>(state)];
+  [[nodiscard]] const TokenChain& chain_of(const ActiveWord& word) const {
+    return models[static_cast<std::size_t>(word.model)];
   }
-  [[nodiscard]] const Token& token_at(const ActiveWord& word, int state) const {
-    return tokens[static_cast<std::size_t>(word.first_state) + static_cast<std::size_t>(state)];
+  [[nodiscard]] std::size_t num_padded(const ActiveWord& word) const {
+    return static_cast<std::size_t>(chain_of(word).num_blocks()) * kTokenBlock;
   }
 
   void begin() {
     records.reset();
     num_frames = 0;
-    std::fill(tokens.begin(), tokens.end(), Token{});
+    tokens.clear();
     for (ActiveWord& word : words) word.first_active = word.end_active = 0;
     std::fill(exits.begin(), exits.end(), Token{});
     pass_on(true);
   }
 
-  // Tokens of all states after one more frame.
-  void advance(Span<const float> emissions) {
+  // Tokens of all states after one more frame, whose emissions have been taken.
+  void advance() {
     double best = kImpossible;
+    next_tokens.clear();
     for (ActiveWord& word : words) {
-      const Arrival& arrival = arrivals[static_cast<std::size_t>(word.node)];
-      Token* const next = next_tokens.data() + word.first_state;
-      const SearchChain& model = search.chain_of(word);
-      reach(model, arrival.token.alive(), &word);
-      std::fill(next, next + word.first_active, Token{});
-      std::fill(next + word.end_active, next + model.num_states, Token{});
+      const auto node = static_cast<std::size_t>(word.node);
+      reach(arrivals.scores[node] > kImpossible, &word);
       if (!word.is_active()) continue;
-      best =
-          std::max(best, advance_word(model, word, arrival.token, tokens.data() + word.first_state,
-                                      emissions.data() + model.first_emission, next));
+      const int first_emission = search.models[static_cast<std::size_t>(word.model)].first_emission;
+      best = std::max(
+          best, kernels.advance(chain_of(word).steps(), word.first_active, word.end_active,
+                                arrivals.scores[node], arrivals.origins[node],
+                                tokens.from(word.first_state), emissions.data() + first_emission,
+                                next_tokens.from(word.first_state)));
     }
-    tokens.swap(next_tokens);
+    std::swap(tokens, next_tokens);
     prune(best - options.beam);
   }
 
   // To the states that tokens come to in the next frame: of those that are in the word, and of one
   // that arrives.
-  static void reach(const SearchChain& model, bool arrives, ActiveWord* word) {
+  void reach(bool arrives, ActiveWord* word) const {
+    const TokenChain& chain = chain_of(*word);
     if (word->is_active()) {
-      word->first_active = std::max(0, word->first_active - model.most_back);
-      word->end_active = std::min(model.num_states, word->end_active + model.most_on);
+      word->first_active = chain.reach_back(word->first_active);
+      word->end_active = chain.reach_on(word->end_active);
     }
     if (!arrives) return;
     word->first_active = 0;
-    word->end_active = std::max(word->end_active, model.end_of_start);
-  }
-
-  static double advance_word(const SearchChain& model, const ActiveWord& word, const Token& arrival,
-                             const Token* before, const float* emissions, Token* after) {
-    double best = kImpossible;
-    for (int j = word.first_active; j < word.end_active; ++j) {
-      Token token = arrival;
-      token.score += model.log_start[j];
-      const ChainStep* const end = model.end_of_steps_into(j);
-      for (const ChainStep* step = model.steps_into(j); step != end; ++step) {
-        const double score = before[step->from].score + step->log_weight;
-        if (score > token.score) token = {score, before[step->from].record};
-      }
-      token.score += static_cast<double>(emissions[j]);
-      after[j] = token;
-      best = std::max(best, token.score);
-    }
-    return best;
+    word->end_active = std::max(word->end_active, chain.end_of_start());
   }
 
   // Drops what is below, and takes stock of the ends of words.
   void prune(double lowest) {
     for (std::size_t w = 0; w < words.size(); ++w) {
       ActiveWord& word = words[w];
-      const SearchChain& model = search.chain_of(word);
       const int first = word.first_active;
       const int end = word.end_active;
       word.first_active = word.end_active = 0;
+      for (int block = first; block < end; ++block) {
+        double* const scores = tokens.scores.data() + word.first_state + block * kTokenBlock;
+        if (!kernels.prune(scores, lowest)) continue;
+        if (!word.is_active()) word.first_active = block;
+        word.end_active = block + 1;
+      }
       exits[w] = {};
-      for (int j = first; j < end; ++j) {
-        Token& token = token_at(word, j);
-        if (token.score < lowest) token = {};
-        if (!token.alive()) continue;
-        if (!word.is_active()) word.first_active = j;
-        word.end_active = j + 1;
-        const double score = token.score + model.log_exit[j];
+      for (const TokenChain::Exit& exit : chain_of(word).exits()) {
+        const Token token = tokens.at(word.first_state + static_cast<std::size_t>(exit.state));
+        const double score = token.score + exit.log_weight;
         if (score > exits[w].score) exits[w] = {score, token.record};
       }
     }
@@ -171,15 +204,25 @@ struct ConnectedDecoder::State {
   // From the ends of words over null nodes to the beginnings of words; at first from the initial
   // node.
   void pass_on(bool at_first) {
-    std::fill(arrivals.begin(), arrivals.end(), Arrival{});
-    if (at_first) arrivals[static_cast<std::size_t>(search.initial)].token = {0, records.root()};
-    for (const WordNetwork::Arc& arc : search.arcs) {
-      const int word = search.word_of_node[static_cast<std::size_t>(arc.from)];
-      Arrival passed = word < 0 ? arrivals[static_cast<std::size_t>(arc.from)]
-                                : Arrival{exits[static_cast<std::size_t>(word)], word};
-      passed.token.score += arc.log_weight;
-      Arrival& there = arrivals[static_cast<std::size_t>(arc.to)];
-      if (passed.token.score > there.token.score) there = passed;
+    arrivals.clear();
+    if (at_first) {
+      arrivals.scores[static_cast<std::size_t>(search.initial)] = 0;
+      arrivals.origins[static_cast<std::size_t>(search.initial)] = records.root();
+    }
+    for (const ArcRow& row : arcs) {
+      const auto from = static_cast<std::size_t>(row.from);
+      const int of_node = search.word_of_node[from];
+      double score = arrivals.scores[from];
+      std::int64_t origin = arrivals.origins[from];
+      if (of_node >= 0) {
+        const auto word = static_cast<std::size_t>(of_node);
+        score = exits[word].score;
+        origin = end_of_word(word);
+      }
+      if (!(score > kImpossible)) continue;
+      kernels.spread(score, origin, row.log_weights.data(),
+                     static_cast<std::ptrdiff_t>(row.log_weights.size()),
+                     arrivals.from(static_cast<std::size_t>(row.first_to)));
     }
     std::fill(exit_records.begin(), exit_records.end(), -1);
     for (const ActiveWord& word : words) record(word.node);
@@ -188,33 +231,35 @@ struct ConnectedDecoder::State {
 
   // Gives what arrives at a node the record of the word whose end it is.
   void record(int node) {
-    Arrival& arrival = arrivals[static_cast<std::size_t>(node)];
-    if (!arrival.token.alive() || arrival.origin < 0) return;
-    const auto origin = static_cast<std::size_t>(arrival.origin);
-    if (exit_records[origin] < 0) {
-      exit_records[origin] =
-          records.add(exits[origin].record, words[origin].model, num_frames, exits[origin].score);
+    const auto at = static_cast<std::size_t>(node);
+    if (!(arrivals.scores[at] > kImpossible) || arrivals.origins[at] >= 0) return;
+    const auto word = static_cast<std::size_t>(~arrivals.origins[at]);
+    if (exit_records[word] < 0) {
+      exit_records[word] =
+          records.add(exits[word].record, words[word].model, num_frames, exits[word].score);
     }
-    arrival.token.record = exit_records[origin];
-    arrival.origin = -1;
+    arrivals.origins[at] = exit_records[word];
+  }
+
+  // f(Token) gives whether the token is kept.
+  template <class F>
+  void for_every_token(F&& f) {
+    for (std::size_t i = 0; i < tokens.scores.size(); ++i) visit(&tokens, i, f);
+    for (const ActiveWord& word : words) visit(&arrivals, static_cast<std::size_t>(word.node), f);
+    visit(&arrivals, static_cast<std::size_t>(search.final), f);
   }
 
   template <class F>
-  void for_every_token(F&& f) {
-    for (Token& token : tokens) {
-      if (token.alive()) f(token);
-    }
-    for (const ActiveWord& word : words) {
-      Token& token = arrivals[static_cast<std::size_t>(word.node)].token;
-      if (token.alive()) f(token);
-    }
-    Token& token = arrivals[static_cast<std::size_t>(search.final)].token;
-    if (token.alive()) f(token);
+  static void visit(TokenRow* row, std::size_t i, F& f) {
+    if (row->scores[i] > kImpossible && !f(row->at(i))) row->scores[i] = kImpossible;
   }
 
   void decide() {
     records.begin_marking();
-    for_every_token([this](const Token& token) { records.mark(token.record); });
+    for_every_token([this](const Token& token) {
+      records.mark(token.record);
+      return true;
+    });
     records.end_marking();
   }
 
@@ -235,11 +280,10 @@ struct ConnectedDecoder::State {
     Token best;
     for_every_token([&best](const Token& token) {
       if (token.score > best.score) best = token;
+      return true;
     });
     const std::int32_t first = records.first_open(best.record);
-    for_every_token([&](Token& token) {
-      if (records.first_open(token.record) != first) token = {};
-    });
+    for_every_token([&](const Token& token) { return records.first_open(token.record) == first; });
   }
 
   [[nodiscard]] DecodedSentence best_so_far() const {
@@ -247,9 +291,8 @@ struct ConnectedDecoder::State {
     const ActiveWord* in = nullptr;
     Token best;
     for (const ActiveWord& word : words) {
-      const int size = search.chain_of(word).num_states;
-      for (int j = 0; j < size; ++j) {
-        const Token& token = token_at(word, j);
+      for (std::size_t j = 0; j < num_padded(word); ++j) {
+        const Token token = tokens.at(word.first_state + j);
         if (token.score > best.score) {
           best = token;
           in = &word;
@@ -267,15 +310,19 @@ struct ConnectedDecoder::State {
     return sentence;
   }
 
+  const detail::TokenKernels& kernels = detail::token_kernels();
   ConnectedDecoderOptions options;
   SearchNetwork search;
+  std::vector<ArcRow> arcs;
+  std::vector<TokenChain> models;
   std::vector<ActiveWord> words;
 
   std::int64_t num_frames = 0;
-  std::vector<Token> tokens;  // of every state of every word
-  std::vector<Token> next_tokens;
-  std::vector<Token> exits;       // of every word
-  std::vector<Arrival> arrivals;  // at every node, before the next frame
+  std::vector<float> emissions;  // of a frame, and behind them what fills the last block
+  TokenRow tokens;               // of the states of every word
+  TokenRow next_tokens;
+  TokenRow arrivals;         // at every node, before the next frame
+  std::vector<Token> exits;  // of every word
   std::vector<std::int32_t> exit_records;
   detail::WordRecords records;
 };
@@ -297,7 +344,8 @@ void ConnectedDecoder::push(Span<const float> log_emissions) {
   for (const float value : log_emissions)
     require(value < std::numeric_limits<float>::infinity(), "log_emissions has NaN or infinity");
   s.make_room();
-  s.advance(log_emissions);
+  std::copy(log_emissions.begin(), log_emissions.end(), s.emissions.begin());
+  s.advance();
   ++s.num_frames;
   s.pass_on(false);
   if (s.num_frames % kDecideEvery == 0) s.decide();
@@ -313,7 +361,7 @@ std::vector<DecodedWord> ConnectedDecoder::take_decided() {
 }
 
 DecodedSentence ConnectedDecoder::finish() {
-  const Token& last = state_->arrivals[static_cast<std::size_t>(state_->search.final)].token;
+  const Token last = state_->arrivals.at(static_cast<std::size_t>(state_->search.final));
   DecodedSentence sentence;
   if (last.alive()) {
     sentence.complete = true;
@@ -332,13 +380,14 @@ int ConnectedDecoder::num_states() const { return state_->search.num_emissions; 
 std::int64_t ConnectedDecoder::num_frames() const { return state_->num_frames; }
 
 int ConnectedDecoder::num_active() const {
-  return static_cast<int>(std::count_if(state_->tokens.begin(), state_->tokens.end(),
-                                        [](const Token& token) { return token.alive(); }));
+  const std::vector<double>& scores = state_->tokens.scores;
+  return static_cast<int>(std::count_if(scores.begin(), scores.end(),
+                                        [](double score) { return score > kImpossible; }));
 }
 
 bool ConnectedDecoder::alive() const {
   bool found = false;
-  state_->for_every_token([&found](const Token&) { found = true; });
+  state_->for_every_token([&found](const Token&) { return found = true; });
   return found;
 }
 

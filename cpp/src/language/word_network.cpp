@@ -205,29 +205,35 @@ WordNetwork WordNetwork::bigram(const NGramModel& language, const std::vector<st
 
 // A node that several models may take becomes two null nodes with these between.
 WordNetwork WordNetwork::with_variants(const std::vector<std::vector<int>>& variants) const {
+  for (const int model : models_) {
+    if (model == kNull) continue;
+    const auto m = static_cast<std::size_t>(model);
+    require(m < variants.size() && !variants[m].empty(), "a model of the network has no variant");
+    for (const int variant : variants[m]) require(variant >= 0, "variants: a number is below 0");
+  }
   std::vector<int> models;
   std::vector<Arc> arcs;
-  std::vector<int> entry(models_.size());
-  std::vector<int> exit(models_.size());
   const auto add = [&models](int model) {
     models.push_back(model);
     return static_cast<int>(models.size()) - 1;
   };
+  const auto has_several = [&](int model) {
+    return model != kNull && variants[static_cast<std::size_t>(model)].size() > 1;
+  };
+  // Nodes that stood in a row do so again, where they are entered.
+  std::vector<int> entry;
+  for (const int model : models_) {
+    if (model == kNull || has_several(model)) {
+      entry.push_back(add(kNull));
+      continue;
+    }
+    entry.push_back(add(variants[static_cast<std::size_t>(model)].front()));
+  }
+  std::vector<int> exit = entry;
   for (std::size_t n = 0; n < models_.size(); ++n) {
-    if (models_[n] == kNull) {
-      entry[n] = exit[n] = add(kNull);
-      continue;
-    }
-    const auto m = static_cast<std::size_t>(models_[n]);
-    require(m < variants.size() && !variants[m].empty(), "a model of the network has no variant");
-    for (const int variant : variants[m]) require(variant >= 0, "variants: a number is below 0");
-    if (variants[m].size() == 1) {
-      entry[n] = exit[n] = add(variants[m].front());
-      continue;
-    }
-    entry[n] = add(kNull);
+    if (!has_several(models_[n])) continue;
     exit[n] = add(kNull);
-    for (const int variant : variants[m]) {
+    for (const int variant : variants[static_cast<std::size_t>(models_[n])]) {
       const int node = add(variant);
       arcs.push_back({entry[n], node, 0});
       arcs.push_back({node, exit[n], 0});

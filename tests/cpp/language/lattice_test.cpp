@@ -116,6 +116,26 @@ TEST(Lattice, OrdersAllSentencesAsTryingThemDoes) {
   EXPECT_GE(most, 15U);  // of at most three words
 }
 
+// Of all of them the sums differ by their rounding at most.
+TEST(Lattice, FindsManySentencesOfOneScore) {
+  WordChain chain;
+  chain.log_start = VectorD::Zero(1);
+  chain.log_transition = MatrixD::Constant(1, 1, std::log(0.3));
+  chain.log_exit = VectorD::Constant(1, std::log(0.3));
+  constexpr int kFrames = 40;
+  const MatrixF scores = MatrixF::Constant(kFrames, 2, -0.1F);
+  const Lattice lattice =
+      Lattice::decode({chain, chain}, WordNetwork::loop(2), scores, ConnectedDecoderOptions());
+  std::set<std::vector<int>> different;
+  for (const DecodedSentence& found : lattice.n_best(1000)) {
+    std::vector<int> words;
+    for (const DecodedWord& word : found.words) words.push_back(word.model);
+    different.insert(words);
+    EXPECT_NEAR(found.log_score, kFrames * (std::log(0.3) - 0.1), 1e-5);
+  }
+  EXPECT_EQ(different.size(), 1000U);
+}
+
 TEST(Lattice, SharesOneOfProbabilityInEveryFrame) {
   for_every_case([](const Case& c, const WordNetwork&) {
     const VectorD shares = c.lattice.posteriors(0.3);

@@ -46,8 +46,8 @@ TEST(WordNetwork, RefusesCyclesOfNullNodes) {
 
 TEST(WordNetwork, TakesVariantsInPlaceOfAModel) {
   const WordNetwork network = WordNetwork::loop(2, 2).with_variants({{0, 1, 2}, {3}, {4}});
-  // The middle; two null nodes and three variants; one node each.
-  EXPECT_EQ(network.models(), (std::vector<int>{-1, -1, -1, 0, 1, 2, 3, 4}));
+  // The middle, and where words are entered, in a row; the end of the first, and its variants.
+  EXPECT_EQ(network.models(), (std::vector<int>{-1, -1, 3, 4, -1, 0, 1, 2}));
   // Every variant lies between the null nodes of its word; the weight of the word counts once.
   const WordNetwork weighted({-1, 0, -1}, {{0, 1, -3}, {1, 2, -2}}, 0, 2);
   double sum = 0;

@@ -160,7 +160,7 @@ SentenceRecognizer SentenceRecognizer::with_known_language_scale(double scale) c
 }
 
 // Of every frame and state; what depends on a hand that is out of view all the time is left out.
-MatrixF SentenceRecognizer::log_emissions(ConstMatrixRefF tracks, double scale_px) const {
+ScoredSentence SentenceRecognizer::score(ConstMatrixRefF tracks, double scale_px) const {
   const detail::SentenceFrames frames =
       detail::sentence_frames(options_, tracks, scale_px, reaches_);
   const MatrixF& features = frames.features;
@@ -175,33 +175,37 @@ MatrixF SentenceRecognizer::log_emissions(ConstMatrixRefF tracks, double scale_p
     const MatrixF known = features(Eigen::all, frames.known_columns);
     emissions_->marginal(frames.known_columns).compute(known, result);
   }
-  return result;
+  return {std::move(result)};
 }
 
 // Has seen all frames of a sentence.
-ConnectedDecoder SentenceRecognizer::decoder_behind(ConstMatrixRefF tracks, double scale_px) const {
-  const MatrixF scores = log_emissions(tracks, scale_px);
+ConnectedDecoder SentenceRecognizer::decoder_behind(const ScoredSentence& scored) const {
+  const MatrixF& scores = scored.log_emissions;
   ConnectedDecoder decoder(chains_, *network_, options_.decoder);
   for (Eigen::Index t = 0; t < scores.rows(); ++t) decoder.push(row_span(scores, t));
   return decoder;
 }
 
 RecognisedSentence SentenceRecognizer::recognise(ConstMatrixRefF tracks, double scale_px) const {
-  const DecodedSentence found = decoder_behind(tracks, scale_px).finish();
+  return recognise(score(tracks, scale_px));
+}
+
+RecognisedSentence SentenceRecognizer::recognise(const ScoredSentence& scored) const {
+  const DecodedSentence found = decoder_behind(scored).finish();
   return sentence_of(found.log_score, named(found.words));
 }
 
 RecognisedSentence SentenceRecognizer::recognise_begun(ConstMatrixRefF tracks,
                                                        double scale_px) const {
-  const DecodedSentence found = decoder_behind(tracks, scale_px).partial();
+  const DecodedSentence found = decoder_behind(score(tracks, scale_px)).partial();
   return sentence_of(found.log_score, named(found.words));
 }
 
 std::vector<RecognisedSentence> SentenceRecognizer::recognise_n_best(ConstMatrixRefF tracks,
                                                                      int count,
                                                                      double scale_px) const {
-  const MatrixF scores = log_emissions(tracks, scale_px);
-  const Lattice of_variants = Lattice::decode(chains_, *network_, scores, options_.decoder);
+  const Lattice of_variants =
+      Lattice::decode(chains_, *network_, score(tracks, scale_px).log_emissions, options_.decoder);
   // Sentences differ in their words, not in the variants of these.
   std::vector<Lattice::Node> nodes = of_variants.nodes();
   for (Lattice::Node& node : nodes) {
@@ -274,26 +278,43 @@ MatrixD SentenceRecognizer::language_table() const {
 RecognisedSentence SentenceRecognizer::recognise_spans(ConstMatrixRefF tracks,
                                                        const std::vector<SignedWordSpan>& spans,
                                                        double scale_px, bool with_language) const {
-  const MatrixF of_frames = log_emissions(tracks, scale_px);
+  return best_of_spans(score_spans(score(tracks, scale_px), spans), spans, with_language);
+}
+
+MatrixD SentenceRecognizer::score_spans(const ScoredSentence& scored,
+                                        const std::vector<SignedWordSpan>& spans) const {
+  const MatrixF& of_frames = scored.log_emissions;
+  require(of_frames.cols() == emissions_->num_states(),
+          "the scores are those of another recogniser");
   detail::check_spans(spans, of_frames.rows());
-  const auto n = static_cast<Eigen::Index>(labels_.size());
-  MatrixD table = MatrixD::Zero(n + 1, n + 1);
-  if (with_language && language_ != nullptr) table = language_table();
-  std::vector<std::vector<Eigen::Index>> previous(spans.size());
-  MatrixD scores(static_cast<Eigen::Index>(spans.size()), n);
-  VectorD best = VectorD::Zero(n);
+  MatrixD scores(static_cast<Eigen::Index>(spans.size()),
+                 static_cast<Eigen::Index>(labels_.size()));
   for (std::size_t i = 0; i < spans.size(); ++i) {
     const auto [first, last] =
         detail::with_margin(spans[i], options_.margin_frames, of_frames.rows());
-    const VectorD own = scores_of(of_frames.middleRows(first, last - first));
-    scores.row(static_cast<Eigen::Index>(i)) = own;
+    scores.row(static_cast<Eigen::Index>(i)) = scores_of(of_frames.middleRows(first, last - first));
+  }
+  return scores;
+}
+
+RecognisedSentence SentenceRecognizer::best_of_spans(const MatrixD& scores,
+                                                     const std::vector<SignedWordSpan>& spans,
+                                                     bool with_language) const {
+  const auto n = static_cast<Eigen::Index>(labels_.size());
+  require(scores.rows() == static_cast<Eigen::Index>(spans.size()) && scores.cols() == n,
+          "scores must have a row for each span, and a column for each label");
+  MatrixD table = MatrixD::Zero(n + 1, n + 1);
+  if (with_language && language_ != nullptr) table = language_table();
+  std::vector<std::vector<Eigen::Index>> previous(spans.size());
+  VectorD best = VectorD::Zero(n);
+  for (std::size_t i = 0; i < spans.size(); ++i) {
     VectorD next(n);
     previous[i].resize(static_cast<std::size_t>(n));
     for (Eigen::Index j = 0; j < n; ++j) {
       Eigen::Index& from = previous[i][static_cast<std::size_t>(j)];
       from = n;
       const double before = i == 0 ? table(n, j) : (best + table.col(j).head(n)).maxCoeff(&from);
-      next[j] = before + own[j];
+      next[j] = before + scores(static_cast<Eigen::Index>(i), j);
     }
     best.swap(next);
   }

@@ -56,6 +56,13 @@ struct WeightErrors {
     const auto [p, s] = best();
     return sentences[p][s];
   }
+  WeightErrors& operator+=(const WeightErrors& more) {
+    for (std::size_t s = 0; s < kScales.size(); ++s) {
+      known[s] += more.known[s];
+      for (std::size_t p = 0; p < kPenalties.size(); ++p) sentences[p][s] += more.sentences[p][s];
+    }
+    return *this;
+  }
 };
 
 class SentenceTrainer {
@@ -268,28 +275,36 @@ class SentenceTrainer {
     const SentenceRecognizer trained = train_without(fold, options);
     const std::vector<const Signed*> held_out = enough_of(fold);
     errors->num_sentences += static_cast<int>(held_out.size());
-    const std::size_t num_jobs = num_penalties() * num_scales();
-    detail::parallel_for(num_jobs, should_stop_, [&](std::size_t job, const StopCheck& stop) {
-      const std::size_t p = job / num_scales();
-      const std::size_t s = job % num_scales();
-      ConnectedDecoderOptions decoder = options_.decoder;
-      SentenceRecognizer tried = trained;
-      if (options_.choose_weights) {
-        decoder.insertion_penalty = penalty(p);
-        decoder.language_scale = kScales[s];
-        tried = trained.with_decoder(decoder).with_known_language_scale(kScales[s]);
-      }
-      for (const Signed* one : held_out) {
-        poll(stop);
-        const SignedSample& sample = *one->sample;
-        errors->sentences[p][s] += detail::num_word_errors(
-            one->words, indices(tried.recognise(sample.tracks, sample.scale_px)));
-        if (p != 0) continue;
-        errors->known[s] += detail::num_word_errors(
-            one->words,
-            indices(tried.recognise_spans(sample.tracks, sample.words, sample.scale_px)));
+    std::vector<std::vector<SentenceRecognizer>> tried(num_penalties());
+    for (std::size_t p = 0; p < num_penalties(); ++p) {
+      for (std::size_t s = 0; s < num_scales(); ++s)
+        tried[p].push_back(with_weights(trained, p, s));
+    }
+    std::vector<WeightErrors> of_sentences(held_out.size());
+    detail::parallel_for(held_out.size(), should_stop_, [&](std::size_t i, const StopCheck& stop) {
+      const Signed& one = *held_out[i];
+      const ScoredSentence scored = trained.score(one.sample->tracks, one.sample->scale_px);
+      const MatrixD of_spans = trained.score_spans(scored, one.sample->words);
+      for (std::size_t s = 0; s < num_scales(); ++s) {
+        of_sentences[i].known[s] = detail::num_word_errors(
+            one.words, indices(tried[0][s].best_of_spans(of_spans, one.sample->words)));
+        for (std::size_t p = 0; p < num_penalties(); ++p) {
+          poll(stop);
+          of_sentences[i].sentences[p][s] =
+              detail::num_word_errors(one.words, indices(tried[p][s].recognise(scored)));
+        }
       }
     });
+    for (const WeightErrors& of_sentence : of_sentences) *errors += of_sentence;
+  }
+
+  [[nodiscard]] SentenceRecognizer with_weights(const SentenceRecognizer& trained, std::size_t p,
+                                                std::size_t s) const {
+    if (!options_.choose_weights) return trained;
+    ConnectedDecoderOptions decoder = options_.decoder;
+    decoder.insertion_penalty = penalty(p);
+    decoder.language_scale = kScales[s];
+    return trained.with_decoder(decoder).with_known_language_scale(kScales[s]);
   }
 
   void choose_weights(const WeightErrors& errors) {

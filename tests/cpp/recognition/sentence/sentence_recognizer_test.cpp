@@ -104,6 +104,37 @@ TEST(SentenceRecognizer, LanguageWeighsWordsWithKnownFrames) {
             "cat");
 }
 
+TEST(SentenceRecognizer, ScoresOnceWhatIsSearchedOften) {
+  const SentenceRecognizer& r = trained_by_signs();
+  const SignedSample sample = signed_sentence({"dog", "cat", "ball"}, 98);
+  const ScoredSentence scored = r.score(sample.tracks);
+  ConnectedDecoderOptions decoder = r.options().decoder;
+  for (const double penalty : {0.0, -40.0}) {
+    decoder.insertion_penalty = penalty;
+    const SentenceRecognizer other = r.with_decoder(decoder);
+    const RecognisedSentence found = other.recognise(scored);
+    EXPECT_EQ(found.text(), other.recognise(sample.tracks).text());
+    EXPECT_EQ(found.log_score, other.recognise(sample.tracks).log_score);
+  }
+  const MatrixD of_spans = r.score_spans(scored, sample.words);
+  ASSERT_EQ(of_spans.rows(), 3);
+  ASSERT_EQ(of_spans.cols(), static_cast<Eigen::Index>(r.labels().size()));
+  EXPECT_EQ(r.best_of_spans(of_spans, sample.words).log_score,
+            r.recognise_spans(sample.tracks, sample.words).log_score);
+  // Alone, the best column is the word.
+  const RecognisedSentence alone = r.best_of_spans(of_spans, sample.words, false);
+  for (Eigen::Index i = 0; i < of_spans.rows(); ++i) {
+    Eigen::Index best = 0;
+    of_spans.row(i).maxCoeff(&best);
+    EXPECT_EQ(alone.words[static_cast<std::size_t>(i)].label,
+              r.labels()[static_cast<std::size_t>(best)]);
+  }
+  const ScoredSentence of_another{MatrixF(scored.log_emissions.leftCols(3))};
+  EXPECT_THROW(r.recognise(of_another), InvalidArgument);
+  EXPECT_THROW(r.score_spans(of_another, sample.words), InvalidArgument);
+  EXPECT_THROW(r.best_of_spans(of_spans, {sample.words[0]}), InvalidArgument);
+}
+
 TEST(SentenceRecognizer, WordShorterThanItsStatesIsStillNamed) {
   const SignedSample sample = signed_sentence({"dog"}, 96);
   SignedWordSpan frame = sample.words[0];

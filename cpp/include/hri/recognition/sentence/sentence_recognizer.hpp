@@ -146,6 +146,11 @@ struct RecognisedSentence {
   [[nodiscard]] std::string text() const;
 };
 
+/// A sentence as models score it.
+struct ScoredSentence {
+  MatrixF log_emissions;  ///< (num_frames, states of all models that are searched)
+};
+
 /// Immutable; const calls are safe from several threads. Copies share their models.
 class HRI_API SentenceRecognizer {
  public:
@@ -188,6 +193,10 @@ class HRI_API SentenceRecognizer {
   /// those of the other features, marginalised over its own. Throws InvalidArgument as train()
   /// does.
   [[nodiscard]] RecognisedSentence recognise(ConstMatrixRefF tracks, double scale_px = 0) const;
+  /// The same in two steps: the scores of a sentence do not depend on how it is searched.
+  [[nodiscard]] ScoredSentence score(ConstMatrixRefF tracks, double scale_px = 0) const;
+  /// Throws InvalidArgument for scores of another recogniser.
+  [[nodiscard]] RecognisedSentence recognise(const ScoredSentence& scored) const;
   /// At most `count` (1..1000) sentences that differ in their words, the best first; none where no
   /// sentence covers all frames. Throws InvalidArgument as train() does, for other counts, and for
   /// more than 64 million states times frames.
@@ -203,6 +212,14 @@ class HRI_API SentenceRecognizer {
                                                    const std::vector<SignedWordSpan>& spans,
                                                    double scale_px = 0,
                                                    bool with_language = true) const;
+  /// Log scores (num_spans, num_labels) of every label in every span. Throws InvalidArgument for
+  /// scores of another recogniser, and spans that train() refuses.
+  [[nodiscard]] MatrixD score_spans(const ScoredSentence& scored,
+                                    const std::vector<SignedWordSpan>& spans) const;
+  /// The best words for spans with such scores. Throws InvalidArgument for shapes that do not fit.
+  [[nodiscard]] RecognisedSentence best_of_spans(const MatrixD& scores,
+                                                 const std::vector<SignedWordSpan>& spans,
+                                                 bool with_language = true) const;
 
   [[nodiscard]] const std::vector<std::string>& labels() const { return labels_; }
   [[nodiscard]] const SentenceRecognizerOptions& options() const { return options_; }
@@ -218,10 +235,9 @@ class HRI_API SentenceRecognizer {
   static SentenceRecognizer read(const ModelFile& file);
   void check_variants() const;
   [[nodiscard]] std::vector<GaussianMixtureHmm> make_chains();
-  [[nodiscard]] MatrixF log_emissions(ConstMatrixRefF tracks, double scale_px) const;
   [[nodiscard]] VectorD scores_of(ConstMatrixRefF of_states) const;
   [[nodiscard]] MatrixD language_table() const;
-  [[nodiscard]] ConnectedDecoder decoder_behind(ConstMatrixRefF tracks, double scale_px) const;
+  [[nodiscard]] ConnectedDecoder decoder_behind(const ScoredSentence& scored) const;
   [[nodiscard]] std::vector<DecodedWord> named(std::vector<DecodedWord> words) const;
   [[nodiscard]] RecognisedSentence sentence_of(double log_score,
                                                const std::vector<DecodedWord>& words) const;
