@@ -18,7 +18,7 @@ from hri.io import write_wav_pcm16
 from hri.recognition import ConfusedPair, HeldOutReport
 
 
-def test_train_makes_a_recogniser_of_the_kind_of_the_folder(spoken: Path) -> None:
+def test_train_makes_a_recogniser_of_the_kind_of_the_folder(spoken: Path, few_fillers: None) -> None:
     seen: list[tuple[str, int, int]] = []
     recognizer = hri.train(hri.Dataset.load(spoken, "speech"), progress=lambda *step: seen.append(step))
     assert isinstance(recognizer, hri.WordRecognizer)
