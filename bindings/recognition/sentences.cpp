@@ -9,6 +9,7 @@
 
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/arrays.hpp"
@@ -26,11 +27,19 @@ using hri_bind::as_matrix;
 using hri_bind::as_span;
 using hri_bind::FloatArray;
 using Spans = std::vector<std::tuple<std::string, std::int64_t, std::int64_t>>;
+using Frames = std::vector<std::pair<std::int64_t, std::int64_t>>;  // first, and one past the last
 
 std::vector<hri::SignedWordSpan> spans_of(const Spans& words) {
   std::vector<hri::SignedWordSpan> spans;
   spans.reserve(words.size());
   for (const auto& [label, first, last] : words) spans.push_back({label, first, last});
+  return spans;
+}
+
+std::vector<hri::SignedWordSpan> spans_of(const Frames& frames) {
+  std::vector<hri::SignedWordSpan> spans;
+  spans.reserve(frames.size());
+  for (const auto& [first, last] : frames) spans.push_back({"", first, last});
   return spans;
 }
 
@@ -152,18 +161,28 @@ void bind_sentences(py::module_& m) {
           py::arg("tracks"), py::arg("count"), py::arg("scale_px") = 0.0)
       .def(
           "recognise_spans",
-          [](const hri::SentenceRecognizer& self, const FloatArray& tracks,
-             const std::vector<std::pair<std::int64_t, std::int64_t>>& frames, double scale_px,
-             bool with_language) {
+          [](const hri::SentenceRecognizer& self, const FloatArray& tracks, const Frames& frames,
+             double scale_px, bool with_language) {
             const auto view = as_matrix(tracks, "tracks");
             const py::gil_scoped_release release;
-            std::vector<hri::SignedWordSpan> spans;
-            spans.reserve(frames.size());
-            for (const auto& [first, last] : frames) spans.push_back({"", first, last});
-            return self.recognise_spans(view, spans, scale_px, with_language);
+            return self.recognise_spans(view, spans_of(frames), scale_px, with_language);
           },
           py::arg("tracks"), py::arg("spans"), py::arg("scale_px") = 0.0,
           py::arg("with_language") = true)
+      .def(
+          "score_spans",
+          [](const hri::SentenceRecognizer& self, const FloatArray& tracks, const Frames& frames,
+             double scale_px) {
+            const auto view = as_matrix(tracks, "tracks");
+            hri::MatrixD scores;
+            {
+              const py::gil_scoped_release release;
+              scores = self.score_spans(self.score(view, scale_px), spans_of(frames));
+            }
+            return hri_bind::to_array(scores);
+          },
+          py::arg("tracks"), py::arg("spans"), py::arg("scale_px") = 0.0,
+          "Log scores (num_spans, num_labels) of every label in every span.")
       .def_property_readonly("labels", &hri::SentenceRecognizer::labels)
       .def_property_readonly("options", &hri::SentenceRecognizer::options,
                              "As trained, with what training chose.");

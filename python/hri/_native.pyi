@@ -9872,6 +9872,17 @@ class SentenceRecognizer:
         with_language: bool = True,
     ) -> RecognisedSentence: ...
     def save(self, path: str | bytes | os.PathLike[str]) -> None: ...
+    def score_spans(
+        self,
+        tracks: typing.Annotated[numpy.typing.ArrayLike, numpy.float32],
+        spans: collections.abc.Sequence[
+            tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex]
+        ],
+        scale_px: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Log scores (num_spans, num_labels) of every label in every span.
+        """
     def to_model_file(self) -> ModelFile: ...
     def with_decoder(self, decoder: ConnectedDecoderOptions) -> SentenceRecognizer: ...
     def with_known_language_scale(self, scale: typing.SupportsFloat | typing.SupportsIndex) -> SentenceRecognizer: ...

@@ -78,7 +78,7 @@ def test_train_and_info_print_it_and_name_what_is_confused(hri: Any, signed: Pat
     assert done.code == 0, done.err
     found = GestureRecognizer.load(model).held_out
     assert found is not None
-    assert "of 12 recordings of people held out in training" in done.err
+    assert "of 12 recordings held out in training" in done.err
     assert f"{100 * found.accuracy:.1f} % are right" in done.err
     assert "'1' and 'one' are hard to distinguish" in done.err and "choose another gesture for one of them" in done.err
     assert json.loads(out.read_text())["held_out"] == found.to_dict()

@@ -94,6 +94,10 @@ def test_words_and_their_frames_are_found(signs: SentenceRecognizer) -> None:
         known = signs.recognise_spans(tracks, spans, use_language=use_language)
         assert known.labels == found.labels
         assert [(w.first_frame, w.last_frame) for w in known.words] == spans
+    scores = signs.score_spans(tracks, spans)
+    assert scores.shape == (len(spans), len(signs.classes_))
+    assert tuple(signs.classes_[scores.argmax(axis=1)]) == found.labels
+    assert scores.max(axis=1) == pytest.approx([word.log_score for word in known.words])
     assert signs.count_errors([tracks], [["DOG", "CAT", "BALL"]]).insertions == 1
 
 
@@ -133,6 +137,8 @@ def test_what_cannot_be_done_is_refused(signs: SentenceRecognizer, sentences: li
         signs.recognise(np.zeros((0, 6)))
     with pytest.raises(InvalidArgument, match="words: 1 has frames 2"):
         signs.recognise_spans(tracks, [(5, 9), (2, 12)])
+    with pytest.raises(InvalidArgument, match="words: 0 has frames 5"):
+        signs.score_spans(tracks, [(5, 5)])
 
 
 def test_hands_that_vanish_for_a_second_leave_the_words(signs: SentenceRecognizer) -> None:

@@ -87,7 +87,7 @@ def test_train_says_that_it_added_noise(
     assert main([*usual, "--noise", str(hum), "--noise", "pink", "--out", str(noisy), "--json", str(report)]) == 0
     said = capsys.readouterr().err
     assert "18 recordings, 3 persons" in said
-    assert "a copy of every recording in noise" in said and "of 36 recordings of people held out" in said
+    assert "a copy of every recording in noise" in said and "of 36 recordings held out" in said
     found = json.loads(report.read_text())
     assert found["noises"] == [str(hum), "pink"] and found["num_recordings"] == 18
     assert plain.read_bytes() != noisy.read_bytes()

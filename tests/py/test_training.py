@@ -38,7 +38,8 @@ def test_train_says_what_it_measured_on_people_held_out(
     assert found is not None and found.labels == ("1", "2") and found.confusion.shape == (2, 2)
     assert found.num_samples == 18 and found.accuracy == np.trace(found.confusion) / 18
     said = capsys.readouterr().err
-    assert f"of 18 recordings of people held out in training, {100 * found.accuracy:.1f} % are right" in said
+    held_out = "of 18 recordings held out in training, by person where that was possible"
+    assert f"{held_out}, {100 * found.accuracy:.1f} % are right" in said
     assert "how many words that are not in the vocabulary are accepted was not measured" in said
     assert found.num_others == 0 and found.false_accept_rate is None  # of two words neither can be left out
     assert main(["info", str(path)]) == 0
@@ -104,7 +105,7 @@ def test_pairs_that_are_confused_are_named() -> None:
 def test_no_rate_is_given_of_what_was_not_measured() -> None:
     never_right = HeldOutReport(("go", "no"), np.array([[0, 1], [1, 0]]), 0.0, 0, None, ())
     assert never_right.lines("gesture") == [
-        "of 2 recordings of people held out in training, 0.0 % are right; "
+        "of 2 recordings held out in training, by person where that was possible, 0.0 % are right; "
         "how many gestures that are not in the vocabulary are accepted was not measured"
     ]
     assert never_right.to_dict()["false_accept_rate"] is None and never_right.to_dict()["num_others"] == 0

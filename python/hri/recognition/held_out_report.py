@@ -96,7 +96,8 @@ class HeldOutReport:
         noun : str
             What a label is of, "word" or "gesture".
         """
-        right = f"of {self.num_samples} recordings of people held out in training, {_percent(self.accuracy)} are right"
+        held_out = f"of {self.num_samples} recordings held out in training, by person where that was possible"
+        right = f"{held_out}, {_percent(self.accuracy)} are right"
         rejected = f"; {_percent(self.false_reject_rate)} of these are rejected as unknown" if self.accuracy else ""
         others = f"{noun}s that are not in the vocabulary"
         if self.false_accept_rate is None:

@@ -223,6 +223,30 @@ class SentenceRecognizer(Recognizer):
         frames = self._frames(tracks, "tracks")
         return _as_sentence(self._trained.recognise_spans(frames, pairs, scale_px, use_language))
 
+    def score_spans(
+        self, tracks: ArrayLike, spans: Sequence[tuple[int, int]], *, scale_px: float = 0.0
+    ) -> NDArray[np.float64]:
+        """Log scores of every word for frames that are known.
+
+        Parameters
+        ----------
+        tracks, spans, scale_px
+            As of `recognise_spans`.
+
+        Returns
+        -------
+        scores : ndarray of float64, shape (num_spans, num_classes)
+            Of the best path through each word of `classes_`, without language model.
+
+        Raises
+        ------
+        InvalidArgument
+            As `recognise_spans` does.
+        """
+        pairs = [(int(first), int(last)) for first, last in spans]
+        scores: NDArray[np.float64] = self._trained.score_spans(self._frames(tracks, "tracks"), pairs, scale_px)
+        return scores
+
     def count_errors(
         self, X: Sequence[ArrayLike], y: Sequence[Sequence[str]], scales_px: Sequence[float] | None = None
     ) -> WordErrors:
