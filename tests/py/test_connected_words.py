@@ -251,6 +251,15 @@ def test_command_line_says_what_is_missing(hri, spoken: Path, tmp_path: Path) ->
     assert damaged.code == 3 and "bad.arpa: line 1: has no counts of n-grams" in damaged.err
 
 
+def test_command_line_refuses_what_training_chooses(hri, spoken: Path) -> None:
+    for option in ("decoder.insertion_penalty=-30", "confidence_scale=0.1", "unknown_lead=0"):
+        refused = hri("train-connected", "--data", spoken, "--option", option)
+        name = option.partition("=")[0]
+        assert refused.code == 2 and f"--option {name} is chosen in training: with --option choose_penalty=false" in (
+            refused.err
+        )
+
+
 @pytest.fixture
 def kept(words: ConnectedWordRecognizer, sentence: np.ndarray, tmp_path: Path) -> tuple[Path, Path]:
     """A model and a recording of the sentence, as files."""

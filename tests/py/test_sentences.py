@@ -245,6 +245,15 @@ def test_command_line_reads_stored_sentences_and_speaks(hri, signs: SentenceReco
     assert bad.code == 3 and "bad.csv: row 1: the columns must be 'signs'" in bad.err
 
 
+def test_command_line_refuses_what_training_chooses(hri, tmp_path: Path) -> None:
+    write_folder(tmp_path / "signed", [signed(["CAT"], 57)])
+    for command in (("train-sentences",), ("evaluate", "sentences")):
+        for name in ("decoder.insertion_penalty", "decoder.language_scale", "known_language_scale"):
+            refused = hri(*command, "--data", tmp_path / "signed", "--option", f"{name}=3")
+            assert refused.code == 2 and f"--option {name} is chosen in training" in refused.err
+            assert "with --option choose_weights=false yours stays" in refused.err
+
+
 def test_command_line_says_what_is_missing(hri, signs: SentenceRecognizer, tmp_path: Path) -> None:
     write_folder(tmp_path / "new", [signed(["CAT"], 57)])
     file = tmp_path / "new" / "hands.csv"

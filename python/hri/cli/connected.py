@@ -21,6 +21,7 @@ from hri.cli.recognizers import (
     options_option,
     parse_options,
     pattern_option,
+    refuse_chosen,
 )
 from hri.core.errors import InvalidArgument
 from hri.io import SpokenWords
@@ -106,6 +107,7 @@ def train_connected(
     elif scaled:
         refuse_given(("language_scale",), "and --option decoder.language_scale=... exclude each other")
     fields = parse_options((f"words.seed={seed}", *options))
+    refuse_chosen(fields, "choose_penalty")
     with naming_options():
         recognizer = ConnectedWordRecognizer(**fields)
     dataset = load_dataset(data, "speech", pattern)

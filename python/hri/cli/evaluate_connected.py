@@ -13,7 +13,7 @@ from typing import Any
 from hri.cli.messages import note
 from hri.cli.output import say_table, write_json
 from hri.cli.progress import progress_bars
-from hri.cli.recognizers import load_dataset, naming_options, parse_options
+from hri.cli.recognizers import load_dataset, naming_options, parse_options, refuse_chosen
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import read_text, split_lines
 from hri.datasets import Dataset
@@ -41,6 +41,7 @@ def evaluate_connected(
 ) -> None:
     """Train without each person who speaks connected words, count the errors in these, print and write them."""
     fields = parse_options((f"words.seed={seed}", *options))
+    refuse_chosen(fields, "choose_penalty")
     with naming_options():
         ConnectedWordRecognizer(**fields)
     dataset = load_dataset(data, "speech", pattern)

@@ -12,7 +12,7 @@ import click
 from hri.cli.messages import note
 from hri.cli.output import say_table, write_json
 from hri.cli.progress import progress_bars
-from hri.cli.recognizers import naming_options, parse_options
+from hri.cli.recognizers import naming_options, parse_options, refuse_chosen
 from hri.datasets.asl_sentences import read_asl_sentences
 from hri.evaluation import SentenceResult, cross_validate_sentences
 from hri.evaluation.sentences import signers_of
@@ -26,6 +26,7 @@ def evaluate_sentences(
     if data is None:
         raise click.UsageError("give --data DIR")
     fields = parse_options((f"seed={seed}", *options))
+    refuse_chosen(fields, "choose_weights")
     with naming_options():
         measured = SentenceRecognizer(**fields)
     sentences = read_asl_sentences(Path(data))

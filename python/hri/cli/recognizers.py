@@ -20,6 +20,11 @@ from hri.language import KnowledgeBase
 from hri.recognition import GestureRecognizer, SentenceRecognizer, SpeechEmbedding, WordRecognizer
 
 _MOST_NAMED = 10
+_CHOSEN = {
+    "choose_penalty": ("decoder.insertion_penalty", "confidence_scale", "unknown_lead"),
+    "choose_weights": ("decoder.insertion_penalty", "decoder.language_scale", "known_language_scale"),
+}
+"""By the option that has them chosen in training: of connected words, and of signed sentences."""
 
 CLASSES: dict[str, type[WordRecognizer] | type[GestureRecognizer]] = {
     "speech": WordRecognizer,
@@ -193,6 +198,24 @@ def parse_options(options: tuple[str, ...]) -> dict[str, Any]:
                 raise InvalidArgument(f"--option {name}: {group} has a value already")
         place[last] = _value(text)
     return fields
+
+
+def refuse_chosen(fields: dict[str, Any], switch: str) -> None:
+    """Refuse options that training chooses unless the option `switch` is false.
+
+    Raises
+    ------
+    click.UsageError
+        Names the option, and how to keep what it was given.
+    """
+    if not fields.get(switch, True):
+        return
+    for name in _CHOSEN[switch]:
+        value: Any = fields
+        for part in name.split("."):
+            value = value.get(part) if isinstance(value, dict) else None
+        if value is not None:
+            raise click.UsageError(f"--option {name} is chosen in training: with --option {switch}=false yours stays")
 
 
 def _value(text: str) -> Any:

@@ -15,7 +15,14 @@ from hri.cli.groups import CheckedCommand, FiniteRange, refuse_given
 from hri.cli.messages import note, report_fault
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
-from hri.cli.recognizers import default_model, naming_options, options_option, parse_options, warn_of_stored
+from hri.cli.recognizers import (
+    default_model,
+    naming_options,
+    options_option,
+    parse_options,
+    refuse_chosen,
+    warn_of_stored,
+)
 from hri.cli.voice import SpokenText, spoken
 from hri.core.errors import Error, FormatError, InvalidArgument
 from hri.datasets.asl_sentences import read_asl_sentences
@@ -53,6 +60,7 @@ def train_sentences(data: str, out: str | None, options: tuple[str, ...], seed: 
       hri train-sentences --data signed/ --option language_order=1 --out signs.hri
     """
     fields = parse_options((f"seed={seed}", *options))
+    refuse_chosen(fields, "choose_weights")
     with naming_options():
         recognizer = SentenceRecognizer(**fields)
     sentences = read_asl_sentences(Path(data))
