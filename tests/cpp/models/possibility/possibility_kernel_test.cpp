@@ -96,7 +96,7 @@ TYPED_TEST(PossibilityKernel, IsThePlainRecursionOnEveryInstructionSet) {
       {0}, {0, 1}, {-1, 0, 1}, {0, 1, 2}, {-2, -1, 0, 1, 2}};
   for (const Join join : {Join::product, Join::min, Join::max}) {
     if (kInteger<T> && join != Join::product) continue;
-    for (const int num_lanes : {1, 2, 3, 16, 32, 48, 64}) {
+    for (const int num_lanes : {1, 3, 16, 48, 64}) {
       for (const int num_states : {1, 2, 5, 17}) {
         const std::string what = "join " + std::to_string(static_cast<int>(join)) + ", " +
                                  std::to_string(num_states) + " x " + std::to_string(num_lanes);
@@ -122,7 +122,7 @@ TYPED_TEST(PossibilityKernel, SweepsLikeThePlainRecursionOnEveryInstructionSet) 
   Random random(2);
   const ChainRule<T> rule = rule_of<T>(Join::product);
   for (const Steps steps : {Steps::free_stay, Steps::free}) {
-    for (int repeat = 0; repeat < 20; ++repeat) {
+    for (int repeat = 0; repeat < 5; ++repeat) {
       for (const int num_lanes : {16, 32, 48, 64}) {
         for (const int num_states : {2, 5, 40})
           expect_plain(left_right<T>(steps, false, num_states, num_lanes, &random), rule, "lanes");
