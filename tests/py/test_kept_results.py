@@ -117,6 +117,14 @@ def test_every_measure_that_has_folds_is_compared() -> None:
         kept.compare("x", result, several(right=0.61, folds=1), limited=True)
 
 
+def test_an_option_that_has_changed_is_refused() -> None:
+    result = several() | {"options": {"states": 8, "front": {"shift_ms": 10.0, "old": 1}}}
+    kept.compare("x", result, several() | {"options": {"states": 8, "front": {"shift_ms": 10.0, "new": True}}})
+    kept.compare("x", several(), result)
+    with pytest.raises(InvalidArgument, match=r"x: option front\.shift_ms was 10\.0, is 5\.0"):
+        kept.compare("x", result, several(folds=1) | {"options": {"front": {"shift_ms": 5.0}}}, limited=True)
+
+
 def test_a_row_measured_whole_is_compared_in_all_its_measures() -> None:
     result = several()
     kept.compare("x", result, several())

@@ -231,6 +231,15 @@ def test_command_line_reads_stored_sentences_and_speaks(hri, signs: SentenceReco
     assert hri(*read, "--max-distance", "0").out == "0\tCAT DOG\n1\tBALL\n"
     found = json.loads(hri(*read, "--json", "-").out)[str(read[1])]
     assert found["0"]["stored"]["words"] == ["CAT", "CAT", "DOG"] and found["1"]["stored"] is None
+    best = signs.recognise_n_best(signed(["CAT", "DOG"], 55)[0], 20)
+    named = json.loads(hri(*read, "--max-distance", "0", "--alternatives", "20", "--json", "-").out)[str(read[1])]
+    assert [one["text"] for one in named["0"]["alternatives"]] == [one.text for one in best]
+    # What is stored is among the others, and so at no distance.
+    assert "CAT CAT DOG" in [one.text for one in best[1:]] and named["0"]["stored"]["distance"] == 0
+    assert "alternatives" not in found["0"] and named["1"]["stored"] is None
+    printed = hri(*read[:-2], "--alternatives", "20").out.splitlines()
+    assert [line for line in printed if line[0] == "0"] == [f"0\t{one.log_score:.1f}\t{one.text}" for one in best]
+    assert hri(*read, "--frames", "--alternatives", "2").code == 2
     if shutil.which("espeak-ng") is not None:
         hri(*read, "--language", "hi", "--speak", tmp_path / "voice")
         audio = package.read_audio(tmp_path / "voice" / "001.wav")

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import json
 from itertools import pairwise
 from pathlib import Path
 
@@ -11,7 +12,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from drawn_hands import FPS, picture
 from hri.core.errors import InvalidArgument
+from hri.media import write_video
 from hri.studies import sentence_splitting
 from hri.studies.gesture_sentences import GestureClip, join
 from hri.vision.splitting import SIZE, direction_changes, key_frames, split_at_pauses, subsample
@@ -82,3 +85,22 @@ def test_what_is_no_film_is_refused() -> None:
             split_at_pauses(changes)
     with pytest.raises(InvalidArgument, match="share is 2"):
         split_at_pauses([1.0, 2.0], share=2.0)
+
+
+def test_the_command_line_splits_a_film(hri, tmp_path: Path) -> None:
+    film = tmp_path / "film.avi"
+    rng = np.random.default_rng(3)
+    # The wall, and the hand: it waves twice, and holds between.
+    wave = [0.5 + 0.2 * np.sin(0.5 * step) for step in range(30)]
+    write_video(film, [picture("flat", height, rng) for height in [*wave, *[wave[-1]] * 20, *wave[::-1]]], FPS)
+    lines = [line.split("\t") for line in hri("split", film, "--share", "0.3").out.splitlines()]
+    assert len(lines) == 2
+    (first, last, middle, end), (begin, *_) = ([int(cell) for cell in line[:4]] for line in lines)
+    assert first == 0 and abs(last - 30) <= 4 and abs(begin - 50) <= 4 and end - middle == 15
+    assert float(lines[1][4]) == pytest.approx(begin / FPS, abs=0.02)
+    found = json.loads(hri("split", film, "--share", "0.3", "--json", "-").out)
+    assert [part["frames"][0] for part in found["parts"]] == [first, begin] and found["num_frames"] == 80
+    assert len(hri("split", film, "--share", "0.3", "--min-pause", "40").out.splitlines()) == 1
+    (tmp_path / "text.avi").write_text("no film")
+    refused = hri("split", tmp_path / "text.avi")
+    assert refused.code == 3 and "text.avi" in refused.err

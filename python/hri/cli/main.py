@@ -54,6 +54,7 @@ COMMANDS = {
     "recognise": ("hri.cli.recognise:recognise", "Recognise a word, a sign or both, and let the robot answer."),
     "transcribe": ("hri.cli.transcribe:transcribe", "Recognise several words in one recording, with their times."),
     "read-sentences": ("hri.cli.sentences:read_sentences", "Recognise signed sentences in tracks of both hands."),
+    "split": ("hri.cli.split:split", "Split a film of signs into gestures where the hand stands still."),
     "listen": ("hri.cli.listen:listen", "Recognise words as they are spoken, from a microphone or a recording."),
     "watch": ("hri.cli.watch:watch", "Recognise gestures as they are shown, to a camera or in a video."),
     "session": ("hri.cli.session:session", "Command a robot by words and signs, live or from recordings."),

@@ -100,6 +100,13 @@ def train_sentences(data: str, out: str | None, options: tuple[str, ...], seed: 
     show_default=True,
     help="Words farther from every stored sentence are none of them.",
 )
+@click.option(
+    "--alternatives",
+    type=click.IntRange(0, 1000),
+    default=0,
+    metavar="N",
+    help="Print the N best sentences with their scores; with --knowledge, the stored sentence nearest to any of them.",
+)
 @click.option("--language", default="en", show_default=True, help="Of the text and of the voice.")
 @click.option(
     "--speak",
@@ -115,6 +122,7 @@ def read_sentences(
     frames: bool,
     knowledge: str | None,
     max_distance: float,
+    alternatives: int,
     language: str,
     speak: str | None,
     play: bool,
@@ -132,9 +140,12 @@ def read_sentences(
       hri read-sentences monday.csv tuesday.csv --frames --json -
       hri read-sentences hands.csv --knowledge sentences.csv --language hi --speak voice/
       hri read-sentences hands.csv --knowledge sentences.csv --play
+      hri read-sentences hands.csv --alternatives 5
     """
     if knowledge is None:
         refuse_given(("max_distance",), "goes with --knowledge")
+    if frames and alternatives:
+        raise click.UsageError("--frames and --alternatives exclude each other")
     path = Path(model) if model is not None else default_model(MODE)
     if not path.is_file():
         raise InvalidArgument("there is no model of signed sentences yet: run 'hri train-sentences --data DIR'")
@@ -159,20 +170,29 @@ def read_sentences(
             continue
         for name, track in tracks.items():
             try:
-                sentence = recognizer.recognise(track)
+                best = (
+                    recognizer.recognise_n_best(track, alternatives) if alternatives else [recognizer.recognise(track)]
+                )
             except InvalidArgument as error:
                 report_fault(f"{file}: {name}: {error}")
                 found[file][name] = {"error": str(error)}
                 num_faults += 1
                 continue
-            match = None if stored is None else stored.match(sentence.labels)
+            sentence, *others = best
+            match = None if stored is None else stored.match(sentence.labels, [other.labels for other in others])
             text = sentence.text if match is None else match.sentence.text(language)
-            found[file][name] = sentence.to_dict()
+            entry = sentence.to_dict()
+            if alternatives:
+                entry["alternatives"] = [one.to_dict() for one in best]
             if stored is not None:
-                found[file][name] = {**sentence.to_dict(), "stored": None if match is None else _as_dict(match, text)}
+                entry["stored"] = None if match is None else _as_dict(match, text)
+            found[file][name] = entry
             if frames:
                 for word in sentence.words:
                     say(f"{name}\t{word.first_frame}\t{word.last_frame}\t{word.label}", json_path)
+            elif alternatives and stored is None:
+                for one in best:
+                    say(f"{name}\t{one.log_score:.1f}\t{one.text}", json_path)
             else:
                 say(f"{name}\t{text}", json_path)
             if stored is not None and match is None:

@@ -6,7 +6,8 @@ A kept result names the commit it was measured at and the hash of every room of 
 `hri.studies.provenance`). Where one of these has changed since, `verify` measures a part of it anew: in that part every
 value of every fold that is kept has to be the same to the last digit, and of a row measured whole every measure. Then
 the result is stamped with the present commit; otherwise it has to be measured again. Where ``"rounded_to"`` says that
-only means were kept, rounded to so many decimals, these are compared. What stands beside the rows is not compared.
+only means were kept, rounded to so many decimals, these are compared. Of what stands beside the rows, the ``"options"``
+are compared where both have them: a default that has changed may leave one fold as it was, and not the others.
 """
 
 from __future__ import annotations
@@ -125,6 +126,8 @@ def compare(name: str, kept: Row, fresh: Row, limited: bool = False) -> None:
     is not compared, unless the kept result has no folds at all.
     """
     fresh = json.loads(json.dumps(fresh, default=str))  # as kept results are written
+    for option, then, now in _changed_options(kept.get("options"), fresh.get("options")):
+        raise InvalidArgument(f"{name}: option {option} was {then}, is {now}")
     digits = kept.get("rounded_to")
     axes = axes_of(kept["rows"])
     old = {_place(row, axes): row for row in kept["rows"]}
@@ -150,6 +153,15 @@ def compare(name: str, kept: Row, fresh: Row, limited: bool = False) -> None:
             compared += 1
     if not compared:
         raise InvalidArgument(f"{name}: nothing was measured that can be compared")
+
+
+def _changed_options(then: Any, now: Any, place: str = "") -> Iterator[tuple[str, Any, Any]]:
+    """Options that both have and that differ: a new one has a default under which the others hold."""
+    if isinstance(then, dict) and isinstance(now, dict):
+        for key in then.keys() & now.keys():
+            yield from _changed_options(then[key], now[key], f"{place}.{key}" if place else key)
+    elif then is not None and now is not None and json.dumps(then, sort_keys=True) != json.dumps(now, sort_keys=True):
+        yield place, then, now
 
 
 def _place(row: Row, axes: Sequence[str]) -> tuple[str, ...]:
