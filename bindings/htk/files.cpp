@@ -41,6 +41,11 @@ hri::Span<const std::uint8_t> as_bytes(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
+auto fields_of(const hri::htk::ParameterHeader& header) {
+  return std::make_tuple(header.kind.text(), header.sample_period, header.num_frames,
+                         header.num_columns);
+}
+
 void bind_parameters(py::module_& m) {
   py::class_<ParameterFile>(m, "HtkParameterFile", "Frames of an HTK parameter file, in rows.")
       .def(py::init([](const FloatArray& values, const std::string& kind, int sample_period) {
@@ -58,12 +63,39 @@ void bind_parameters(py::module_& m) {
           "parse_header",
           [](const py::bytes& data, const std::string& name) {
             const auto text = static_cast<std::string>(data);
-            const auto header = hri::htk::ParameterHeader::parse(as_bytes(text), name);
-            return std::make_tuple(header.kind.text(), header.sample_period, header.num_frames,
-                                   header.num_columns);
+            return fields_of(hri::htk::ParameterHeader::parse(as_bytes(text), name));
           },
           py::arg("data"), py::arg("name"),
           "(kind, sample_period, num_frames, num_columns) of the first 12 bytes.")
+      .def_static(
+          "read_header",
+          [](const Path& path) { return fields_of(hri::htk::ParameterHeader::read(path.text)); },
+          py::arg("path"),
+          "The same of a file, of which no more is read; raises FormatError also where the file "
+          "has another size than the header says.")
+      .def_static(
+          "read_frames",
+          [](const Path& path, std::int64_t first, std::int64_t last) {
+            return ParameterFile::read_frames(path.text, first, last);
+          },
+          py::arg("path"), py::arg("first"), py::arg("last"), Release(),
+          "Frames first .. last - 1 alone, as `read` has them, in memory for these. A checksum is "
+          "checked only where these are all. Raises FormatError also where the file has fewer "
+          "frames, InvalidArgument unless 0 <= first < last.")
+      .def_static(
+          "verify", [](const Path& path) { ParameterFile::verify(path.text); }, py::arg("path"),
+          Release(),
+          "Raises FormatError for a header, a size and a checksum that are wrong; takes memory of "
+          "a fixed size.")
+      .def_static(
+          "frames_beside",
+          [](const std::string& kind, const std::string& target, const HtkFeatureOptions& options) {
+            return hri::htk::frames_beside(ParameterKind::parse(kind), ParameterKind::parse(target),
+                                           options);
+          },
+          py::arg("kind"), py::arg("target"),
+          py::arg_v("options", HtkFeatureOptions(), "HtkFeatureOptions()"),
+          "How many frames on each side a frame takes to become of the kind `target`; None: all.")
       .def_static(
           "parse",
           [](const py::bytes& data, const std::string& name) {

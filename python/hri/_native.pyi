@@ -8256,6 +8256,11 @@ class HtkParameterFile:
     Frames of an HTK parameter file, in rows.
     """
     @staticmethod
+    def frames_beside(kind: str, target: str, options: HtkFeatureOptions = ...) -> int | None:
+        """
+        How many frames on each side a frame takes to become of the kind `target`; None: all.
+        """
+    @staticmethod
     def parse(data: bytes, name: str) -> HtkParameterFile:
         """
         The same of bytes; `name` is what errors call them.
@@ -8269,6 +8274,25 @@ class HtkParameterFile:
     def read(path: str | bytes | os.PathLike[str]) -> HtkParameterFile:
         """
         Raises FormatError naming file and byte.
+        """
+    @staticmethod
+    def read_frames(
+        path: str | bytes | os.PathLike[str],
+        first: typing.SupportsInt | typing.SupportsIndex,
+        last: typing.SupportsInt | typing.SupportsIndex,
+    ) -> HtkParameterFile:
+        """
+        Frames first .. last - 1 alone, as `read` has them, in memory for these. A checksum is checked only where these are all. Raises FormatError also where the file has fewer frames, InvalidArgument unless 0 <= first < last.
+        """
+    @staticmethod
+    def read_header(path: str | bytes | os.PathLike[str]) -> tuple[str, int, int, int]:
+        """
+        The same of a file, of which no more is read; raises FormatError also where the file has another size than the header says.
+        """
+    @staticmethod
+    def verify(path: str | bytes | os.PathLike[str]) -> None:
+        """
+        Raises FormatError for a header, a size and a checksum that are wrong; takes memory of a fixed size.
         """
     def __init__(
         self,

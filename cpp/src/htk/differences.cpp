@@ -3,12 +3,20 @@
 #include "htk/differences.hpp"
 
 #include <array>
+#include <numeric>
 
 #include "hri/core/error.hpp"
 #include "hri/features/speech/dynamics.hpp"
 #include "htk/base_conversion.hpp"
 
 namespace hri::htk {
+namespace {
+
+std::array<int, 3> windows_of(const HtkFeatureOptions& options) {
+  return {options.delta_window, options.acceleration_window, options.third_window};
+}
+
+}  // namespace
 
 namespace detail {
 
@@ -18,8 +26,7 @@ MatrixF with_differences(const MatrixF& statics, ParameterKind kind,
   const int num_blocks = kind.num_blocks();
   MatrixF out(statics.rows(), width * num_blocks);
   out.leftCols(width) = statics;
-  const std::array<int, 3> windows{options.delta_window, options.acceleration_window,
-                                   options.third_window};
+  const std::array<int, 3> windows = windows_of(options);
   for (int block = 1; block < num_blocks; ++block)
     append_deltas(out, (block - 1) * width, width, windows[static_cast<std::size_t>(block - 1)]);
   if (kind.has(kZeroMean)) {
@@ -74,6 +81,15 @@ ParameterFile convert(const ParameterFile& file, ParameterKind kind,
     out.values = file.values.leftCols(num_static * kind.num_blocks());
   }
   return out;
+}
+
+std::optional<int> frames_beside(ParameterKind from, ParameterKind to,
+                                 const HtkFeatureOptions& options) {
+  const bool same_base = to.base == BaseKind::anon || to.base == from.base;
+  if (!same_base || (to.has(kZeroMean) && !from.has(kZeroMean))) return std::nullopt;
+  if (to.num_blocks() <= from.num_blocks()) return 0;
+  const std::array<int, 3> windows = windows_of(options);
+  return std::accumulate(windows.begin(), windows.begin() + to.num_blocks() - 1, 0);
 }
 
 MatrixF observations(const ParameterFile& file, ParameterKind kind,

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "hri/core/error.hpp"
+#include "hri/htk/feature_extractor.hpp"
+#include "hri/io/file.hpp"
 
 namespace hri::htk {
 namespace {
@@ -21,6 +23,20 @@ ParameterFile sample(const std::string& kind, int columns = 6) {
     file.values.data()[i] = static_cast<float>(i * i) / 7 - 3;
   return file;
 }
+
+// Files of all kinds, of 5 frames.
+std::vector<ParameterFile> samples() {
+  std::vector<ParameterFile> files;
+  for (const char* kind : {"MFCC", "MFCC_K", "MFCC_C", "MFCC_C_K", "USER_D_A_K"})
+    files.push_back(sample(kind));
+  for (const char* kind : {"WAVEFORM", "DISCRETE_K", "IREFC_K"}) {
+    files.push_back(sample(kind, 1));
+    files.back().values << 0, 1, -1, 1, 0;
+  }
+  return files;
+}
+
+std::string temporary(const std::string& name) { return testing::TempDir() + "hri_" + name; }
 
 std::string refusal_of_bytes(const Bytes& bytes) {
   try {
@@ -169,6 +185,120 @@ TEST(ParameterFile, RefusesToWriteWhatNoFileCanHold) {
   file = sample("MFCC_C");
   file.scale = {1, 2};
   EXPECT_THROW((void)file.serialise(), InvalidArgument);
+}
+
+TEST(ParameterFile, PartsAreThoseOfTheWholeToTheBit) {
+  const std::string path = temporary("parts.mfc");
+  for (const ParameterFile& file : samples()) {
+    const std::string kind = file.kind.text();
+    file.write(path);
+    const Bytes bytes = file.serialise();
+    EXPECT_EQ(read_file(path), bytes) << kind;
+    const ParameterFile whole = ParameterFile::parse(bytes, kind);
+    EXPECT_EQ(ParameterFile::read(path).values, whole.values) << kind;
+    for (std::int64_t first = 0; first < 5; ++first) {
+      for (std::int64_t last = first + 1; last <= 5; ++last) {
+        const ParameterFile part = ParameterFile::read_frames(path, first, last);
+        EXPECT_EQ(part.values, whole.values.middleRows(first, last - first)) << kind;
+        EXPECT_EQ(part.kind, whole.kind);
+        EXPECT_EQ(part.sample_period, whole.sample_period);
+        EXPECT_EQ(part.scale, whole.scale);
+        EXPECT_EQ(part.offset, whole.offset);
+        EXPECT_EQ(ParameterFile::parse_frames(bytes, kind, first, last).values, part.values);
+      }
+    }
+    const ParameterHeader header = ParameterHeader::read(path);
+    EXPECT_EQ(header.kind, whole.kind);
+    EXPECT_EQ(header.num_frames, 5);
+    EXPECT_EQ(header.num_columns, whole.values.cols());
+    EXPECT_NO_THROW(ParameterFile::verify(path));
+  }
+}
+
+TEST(ParameterFile, IsReadAcrossTheEdgesOfItsWindow) {
+  const std::string path = temporary("long.mfc");
+  ParameterFile file;
+  file.kind = ParameterKind::parse("MFCC_K");
+  file.values.resize(3001, 39);  // 7 windows of 64 KiB, and a part of one
+  for (Eigen::Index i = 0; i < file.values.size(); ++i)
+    file.values.data()[i] = static_cast<float>(i);
+  file.write(path);
+  EXPECT_EQ(read_file(path), file.serialise());
+  EXPECT_EQ(ParameterFile::read(path).values, file.values);
+  for (const std::int64_t first : {0, 419, 420, 2999})
+    EXPECT_EQ(ParameterFile::read_frames(path, first, 3000).values,
+              file.values.middleRows(first, 3000 - first));
+}
+
+TEST(ParameterFile, RefusesPartsThatThereAreNot) {
+  const std::string path = temporary("bounds.mfc");
+  sample("MFCC").write(path);
+  for (const auto& [first, last] : {std::pair{-1, 2}, {2, 2}, {3, 2}, {0, 0}})
+    EXPECT_THROW(ParameterFile::read_frames(path, first, last), InvalidArgument) << first;
+  EXPECT_THROW(ParameterFile::read_frames(path, 4, 6), FormatError);
+  EXPECT_THROW(ParameterFile::read_frames(path, 0, std::numeric_limits<std::int64_t>::max()),
+               FormatError);
+  EXPECT_THROW(ParameterFile::read_frames(temporary("none.mfc"), 0, 1), IoError);
+  EXPECT_THROW(ParameterHeader::read(testing::TempDir()), IoError);
+}
+
+TEST(ParameterFile, PartsOfDamagedFilesAreRefused) {
+  const std::string path = temporary("damaged.mfc");
+  for (const char* kind : {"MFCC_C_K", "MFCC_E_D"}) {
+    const Bytes good = sample(kind).serialise();
+    for (std::size_t size = 0; size < good.size(); ++size) {
+      write_file_atomically(path, {good.data(), size});
+      EXPECT_THROW(ParameterFile::read_frames(path, 0, 1), FormatError) << size;
+      EXPECT_THROW(ParameterHeader::read(path), FormatError) << size;
+      EXPECT_THROW(ParameterFile::verify(path), FormatError) << size;
+    }
+  }
+  // A checksum needs every byte: that of a part alone is not checked, that of all frames is.
+  Bytes bytes = sample("MFCC_K").serialise();
+  bytes[40] ^= 1;  // in the second frame
+  write_file_atomically(path, bytes);
+  EXPECT_NO_THROW(ParameterFile::read_frames(path, 0, 1));
+  EXPECT_THROW(ParameterFile::read_frames(path, 0, 5), FormatError);
+  EXPECT_THROW(ParameterFile::read(path), FormatError);
+  EXPECT_THROW(ParameterFile::verify(path), FormatError);
+  // Nor are the values of other frames.
+  bytes = sample("MFCC").serialise();
+  bytes[12] = 0x7f;
+  bytes[13] = 0xc0;
+  write_file_atomically(path, bytes);
+  EXPECT_NO_THROW(ParameterFile::read_frames(path, 1, 5));
+  EXPECT_THROW(ParameterFile::read_frames(path, 0, 1), FormatError);
+}
+
+TEST(FramesBeside, MakePartsAsTheyAreInTheWhole) {
+  HtkFeatureOptions options;
+  options.acceleration_window = 3;
+  ParameterFile file;
+  file.values.resize(60, 13);
+  for (Eigen::Index i = 0; i < file.values.size(); ++i)
+    file.values.data()[i] = static_cast<float>(i * 7919 % 1000) / 37;
+  for (const char* from : {"MFCC_0", "MFCC_0_Z"}) {
+    file.kind = ParameterKind::parse(from);
+    for (const char* letters : {"", "_D", "_D_A", "_D_A_T"}) {
+      const ParameterKind to = ParameterKind::parse(std::string(from) + letters);
+      const MatrixF whole = convert(file, to, options).values;
+      const auto beside = frames_beside(file.kind, to, options);
+      ASSERT_TRUE(beside.has_value());
+      EXPECT_EQ(*beside, std::vector<int>({0, 2, 5, 7})[to.num_blocks() - 1U]);
+      for (Eigen::Index first = 0; first < 60; first += 7) {
+        const Eigen::Index begin = std::max<Eigen::Index>(first - *beside, 0);
+        const Eigen::Index end = std::min<Eigen::Index>(first + 3 + *beside, 60);
+        ParameterFile part = file;
+        part.values = file.values.middleRows(begin, end - begin);
+        EXPECT_EQ(convert(part, to, options).values.middleRows(first - begin, 3),
+                  whole.middleRows(first, 3));
+      }
+    }
+  }
+  const auto kind = [](const char* name) { return ParameterKind::parse(name); };
+  EXPECT_EQ(frames_beside(kind("MFCC_0_D_A"), kind("MFCC_0_D"), options), 0);
+  EXPECT_FALSE(frames_beside(kind("MFCC_0"), kind("MFCC_0_Z"), options).has_value());
+  EXPECT_FALSE(frames_beside(kind("FBANK"), kind("MFCC_0"), options).has_value());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "hri/core/export.hpp"
@@ -113,6 +114,12 @@ class HRI_API FeatureExtractor {
 /// file has not.
 HRI_API ParameterFile convert(const ParameterFile& file, ParameterKind kind,
                               const HtkFeatureOptions& options = {});
+
+/// How many frames on each side of it convert() reads for a frame of `to`: a part of a file with so
+/// many more becomes what it is in the whole, to the bit. Nothing where it takes them all: for the
+/// mean of _Z, and for another base, whose rounding depends on how many frames there are.
+HRI_API std::optional<int> frames_beside(ParameterKind from, ParameterKind to,
+                                         const HtkFeatureOptions& options = {});
 
 /// Frames as models of this kind see them: as convert() has them, without the absolute energy where
 /// the kind has _N.
