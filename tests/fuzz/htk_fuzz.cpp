@@ -9,6 +9,7 @@
 #include "hri/htk/labels.hpp"
 #include "hri/htk/recognizer.hpp"
 #include "hri/htk/vq_table.hpp"
+#include "htk/state_tying.hpp"
 
 namespace {
 
@@ -24,6 +25,20 @@ void read_parameters(const std::uint8_t* data, std::size_t size) {
   const auto again = hri::htk::ParameterFile::parse(bytes, "again");
   if (again.values.rows() != file.values.rows() || again.serialise().size() != bytes.size())
     std::abort();
+}
+
+// Frames of a file, which the first byte chooses, without and with the others.
+void read_frames(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return;
+  const std::int64_t first = data[0] & 0xf;
+  const hri::Span<const std::uint8_t> bytes{data + 1, size - 1};
+  const auto part = hri::htk::ParameterFile::parse_frames(bytes, "input", first,
+                                                          first + std::int64_t{data[0] >> 4U} + 1);
+  const auto header = hri::htk::ParameterHeader::parse(bytes, "input");
+  if (part.values.cols() != header.num_columns || first + part.values.rows() > header.num_frames)
+    std::abort();
+  const auto file = hri::htk::ParameterFile::parse(bytes, "input");
+  if (part.values != file.values.middleRows(first, part.values.rows())) std::abort();
 }
 
 void read_models(const std::string& text) {
@@ -84,7 +99,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   hri::fuzzing::expect_typed_errors([&] {
     const std::string text(data + 1, data + size);
-    switch ((data[0] + 7) % 11) {
+    switch ((data[0] + 8) % 14) {
       case 0:
         read_parameters(data + 1, size - 1);
         break;
@@ -115,8 +130,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       case 9:
         read_table(text);
         break;
-      default:
+      case 10:
         read_trees(text);
+        break;
+      case 11:
+        read_frames(data + 1, size - 1);
+        break;
+      case 12:
+        hri::htk::detail::parse_statistics(text, "input");
+        break;
+      default:
+        hri::htk::detail::parse_model_list(text, "input");
         break;
     }
   });

@@ -163,25 +163,22 @@ class Editor {
     for (const MacroDefinition& macro : set_->macros) {
       if (macro.type == 'h') known.emplace(macro.name, &macro);
     }
-    const std::string text = detail::read_text(list);
-    detail::TextLines lines(text, list);
     std::vector<MacroDefinition> made;
     std::set<std::string> names;
     std::int64_t num_values = 0;
-    while (lines.next()) {
-      const std::vector<std::string> fields = lines.fields();
-      if (fields.empty()) continue;
-      if (fields.size() > 1 || fields[0].empty()) lines.refuse("expected the name of a model");
-      const std::string& name = fields[0];
-      if (!names.insert(name).second) lines.refuse("'" + name + "' stands here again");
+    for (const auto& [name, line] : detail::parse_model_list(detail::read_text(list), list)) {
+      const auto refuse_name = [&list, number = line](const std::string& why) {
+        fail(ErrorKind::format, list + ": line " + std::to_string(number) + ": " + why);
+      };
+      if (!names.insert(name).second) refuse_name("'" + name + "' stands here again");
       auto found = known.find(name);
       if (found == known.end()) found = known.find(without_contexts(name));
       if (found == known.end())
-        lines.refuse("there is no model '" + name + "', and no '" + without_contexts(name) + "'");
+        refuse_name("there is no model '" + name + "', and no '" + without_contexts(name) + "'");
       made.push_back(*found->second);
       made.back().name = name;
       num_values += size_of(made.back().hmm);
-      if (num_values > kMostCloned) lines.refuse("the copies have too many values");
+      if (num_values > kMostCloned) refuse_name("the copies have too many values");
     }
     if (made.empty()) refuse("the list '" + list + "' has no model");
     const auto is_model = [](const MacroDefinition& macro) { return macro.type == 'h'; };

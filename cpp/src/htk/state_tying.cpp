@@ -68,10 +68,9 @@ void sort_macros(ModelSet* set) {
                    });
 }
 
-void StateTying::read_statistics(const std::string& path) {
-  const std::string text = read_text(path);
-  TextLines lines(text, path);
-  std::map<std::string, std::vector<double>> found;
+Occupations parse_statistics(const std::string& text, const std::string& name) {
+  TextLines lines(text, name);
+  Occupations found;
   while (lines.next()) {
     const std::vector<std::string> fields = lines.fields();
     if (fields.empty()) continue;
@@ -85,7 +84,23 @@ void StateTying::read_statistics(const std::string& path) {
     if (!found.emplace(fields[1], std::move(frames)).second)
       lines.refuse("'" + fields[1] + "' stands here again");
   }
-  occupations_ = std::move(found);
+  return found;
+}
+
+std::vector<ListedModel> parse_model_list(const std::string& text, const std::string& name) {
+  TextLines lines(text, name);
+  std::vector<ListedModel> listed;
+  while (lines.next()) {
+    const std::vector<std::string> fields = lines.fields();
+    if (fields.empty()) continue;
+    if (fields.size() > 1 || fields[0].empty()) lines.refuse("expected the name of a model");
+    listed.push_back({fields[0], lines.number()});
+  }
+  return listed;
+}
+
+void StateTying::read_statistics(const std::string& path) {
+  occupations_ = parse_statistics(read_text(path), path);
   statistics_path_ = path;
 }
 
@@ -191,19 +206,14 @@ void StateTying::add_unseen(const std::string& where, const std::string& list,
     names.insert(macro.name);
     of_unit.emplace(without_contexts(macro.name), m);
   }
-  const std::string text = read_text(list);
-  TextLines lines(text, list);
   std::int64_t num_values = 0;
-  while (lines.next()) {
-    const std::vector<std::string> fields = lines.fields();
-    if (fields.empty()) continue;
-    if (fields.size() > 1 || fields[0].empty()) lines.refuse("expected the name of a model");
-    const std::string& name = fields[0];
+  for (const auto& [name, line] : parse_model_list(read_text(list), list)) {
+    const std::string listed = list + ": line " + std::to_string(line);
     if (!names.insert(name).second) continue;
     const std::string unit = without_contexts(name);
     const auto found = of_unit.find(unit);
     if (found == of_unit.end())
-      lines.refuse("there is no model of the same unit: of " + both(unit, name));
+      refuse_command(listed, "there is no model of the same unit: of " + both(unit, name));
     MacroDefinition made = set->macros[found->second];
     made.name = name;
     for (std::size_t s = 0; s < made.hmm.states.size(); ++s) {
@@ -216,12 +226,13 @@ void StateTying::add_unseen(const std::string& where, const std::string& list,
         state = set->macros[leaf->second].state;
         state.macro = leaf->first;
       } else if (state.macro.empty()) {
-        lines.refuse("there is no tree for state " + std::to_string(number) + " of '" + unit + "'");
+        refuse_command(
+            listed, "there is no tree for state " + std::to_string(number) + " of '" + unit + "'");
       }
       num_values += 2 * set->vector_size;
     }
     num_values += made.hmm.transitions.values.size();
-    if (num_values > kMostUnseen) lines.refuse("the models have too many values");
+    if (num_values > kMostUnseen) refuse_command(listed, "the models have too many values");
     set->macros.push_back(std::move(made));
   }
 }

@@ -4,6 +4,7 @@
 // HHEd's commands on states of models in context: RO, LS, QS, TB, TC, AU, CO, ST and LT.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,6 +21,22 @@ std::string without_contexts(const std::string& name);
 
 /// Macros before all models: what a definition uses stands before it.
 void sort_macros(ModelSet* set);
+
+/// Frames in which the states of a model were met, by its name.
+using Occupations = std::map<std::string, std::vector<double>>;
+
+/// Statistics as HERest writes them. Throws FormatError naming file and line; `name` stands for the
+/// path.
+Occupations parse_statistics(const std::string& text, const std::string& name);
+
+/// A name that a list of models has, and where.
+struct ListedModel {
+  std::string name;
+  std::int64_t line = 1;
+};
+
+/// A list of models, one a line; throws as parse_statistics() does.
+std::vector<ListedModel> parse_model_list(const std::string& text, const std::string& name);
 
 /// A state of a model.
 struct StatePlace {
@@ -57,7 +74,7 @@ class StateTying {
 
   double least_occupation_ = 0;
   std::string statistics_path_;
-  std::map<std::string, std::vector<double>> occupations_;
+  Occupations occupations_;
   DecisionTrees trees_;
 };
 
