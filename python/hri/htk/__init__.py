@@ -34,7 +34,7 @@ from hri.htk.coding import (
     observed,
     read_header,
 )
-from hri.htk.listing import list_parameters, observation_names
+from hri.htk.listing import blocks_of, header_of, list_parameters, observation_names
 from hri.htk.lists import read_list, read_script
 from hri.htk.results import HTK_COSTS, Results, compare
 from hri.htk.sentences import (
@@ -79,10 +79,12 @@ __all__ = [
     "VqTable",
     "WordLattice",
     "WordSpotting",
+    "blocks_of",
     "code_file",
     "code_sources",
     "compare",
     "draw_sentence",
+    "header_of",
     "list_parameters",
     "load_observations",
     "network_statistics",

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri._native import HtkConfiguration, HtkFeatureExtractor, HtkParameterFile, HtkVqTable
-from hri.core.errors import FormatError
-from hri.core.files import MAX_MODEL_BYTES, read_bytes
+from hri.core.errors import FormatError, InvalidArgument
+from hri.core.files import regular_file
 from hri.io import read_wav
 
 UNITS_PER_S = 10_000_000
@@ -42,21 +42,25 @@ class Source:
 
     def duration(self, configuration: HtkConfiguration) -> int:
         """Of the part, in 100 ns. Raises as `code_file` does."""
-        audio = _audio(self.path, configuration)
-        if audio is not None:
-            return round(len(self.cut(*audio)) * UNITS_PER_S / audio[1])
-        file = HtkParameterFile.read(self.path)
-        return len(self.cut(file.values, UNITS_PER_S / file.sample_period)) * file.sample_period
+        if configuration.source_format == "WAV":
+            samples, rate_hz = _part_of_wav(self)
+            return round(len(samples) * UNITS_PER_S / rate_hz)
+        header = read_header(self.path)
+        first, last = self.span(header.num_frames, UNITS_PER_S / header.sample_period)
+        return (last - first) * header.sample_period
 
-    def cut(self, values: NDArray[np.float32], rate_hz: float) -> NDArray[np.float32]:
-        """The part of samples or frames. Raises FormatError where it is empty."""
+    def span(self, length: int, rate_hz: float) -> tuple[int, int]:
+        """The first of the samples or frames of the part, of so many, and the one behind its last.
+
+        Raises FormatError where it is empty.
+        """
         first = round(self.start * rate_hz / UNITS_PER_S)
         last = round(self.end * rate_hz / UNITS_PER_S)
-        last = min(last, len(values)) if self.end > 0 else len(values) + last
+        last = min(last, length) if self.end > 0 else length + last
         if first >= last:
             end = f"{self.end} * 100 ns" if self.end > 0 else f"{-self.end} * 100 ns before its end"
             raise FormatError(f"{fspath(self.path)}: nothing is left between {self.start} * 100 ns and {end}")
-        return values[first:last]
+        return first, last
 
 
 def code_file(source: str | PathLike[str], configuration: HtkConfiguration) -> HtkParameterFile:
@@ -108,13 +112,11 @@ def _code(sources: Sequence[Source], configuration: HtkConfiguration) -> HtkPara
     files: list[HtkParameterFile] = []
     for source in sources:
         name = fspath(source.path)
-        audio = _audio(source.path, configuration)
-        if audio is not None:
-            clips.append((source.cut(*audio), audio[1]))
+        if _is_recording(source.path, configuration):
+            clips.append(_audio(source, configuration))
         else:
-            file = HtkParameterFile.read(source.path)
             whole = source.start == 0 and source.end == 0
-            part = file if whole else _part_of(file, source)
+            part = HtkParameterFile.read(source.path) if whole else _part_of(source)
             files.append(part)
             if (part.kind, part.sample_period) != (files[0].kind, files[0].sample_period):
                 raise FormatError(
@@ -178,9 +180,11 @@ def observed(file: HtkParameterFile, kind: str, configuration: HtkConfiguration,
     return file.observations(file.kind if kind == "ANON" else kind, configuration.features)
 
 
-def _part_of(file: HtkParameterFile, source: Source) -> HtkParameterFile:
-    values = source.cut(file.values, UNITS_PER_S / file.sample_period)
-    return HtkParameterFile(values, _uncompressed(file.kind), file.sample_period)
+def _part_of(source: Source) -> HtkParameterFile:
+    header = read_header(source.path)
+    first, last = source.span(header.num_frames, UNITS_PER_S / header.sample_period)
+    file = HtkParameterFile.read_frames(source.path, first, last)
+    return HtkParameterFile(file.values, _uncompressed(file.kind), file.sample_period)
 
 
 def _uncompressed(kind: str) -> str:
@@ -189,20 +193,32 @@ def _uncompressed(kind: str) -> str:
     return "_".join([base, *(letter for letter in letters if letter not in "CK")])
 
 
-def _audio(source: str | PathLike[str], configuration: HtkConfiguration) -> tuple[NDArray[np.float32], int] | None:
-    """Samples and their rate in Hz, of a recording that is coded; None for parameters, and waveforms that stay so."""
+def _is_recording(path: str | PathLike[str], configuration: HtkConfiguration) -> bool:
+    """Whether the file is coded; parameters, and waveforms that stay so, are not."""
     if configuration.source_format == "WAV":
-        wav = read_wav(source)
-        return wav.samples, wav.sample_rate_hz
-    header = read_header(source)
-    becomes = configuration.written_kind(header.kind)
-    if not header.kind.startswith("WAVEFORM") or becomes.startswith("WAVEFORM"):
-        return None
-    file = HtkParameterFile.read(source)
-    rate = UNITS_PER_S / file.sample_period
-    if rate != round(rate):
-        raise FormatError(f"{fspath(source)}: a sample period of {file.sample_period} * 100 ns is no whole rate in Hz")
-    return file.values[:, 0] / np.float32(FULL_SCALE), round(rate)
+        return True
+    kind = read_header(path).kind
+    return kind.startswith("WAVEFORM") and not configuration.written_kind(kind).startswith("WAVEFORM")
+
+
+def _audio(source: Source, configuration: HtkConfiguration) -> tuple[NDArray[np.float32], int]:
+    """Samples of a part of a recording, and their rate in Hz."""
+    if configuration.source_format == "WAV":
+        return _part_of_wav(source)
+    header = read_header(source.path)
+    rate_hz = UNITS_PER_S / header.sample_period
+    if rate_hz != round(rate_hz):
+        raise FormatError(
+            f"{fspath(source.path)}: a sample period of {header.sample_period} * 100 ns is no whole rate in Hz"
+        )
+    file = HtkParameterFile.read_frames(source.path, *source.span(header.num_frames, rate_hz))
+    return file.values[:, 0] / np.float32(FULL_SCALE), round(rate_hz)
+
+
+def _part_of_wav(source: Source) -> tuple[NDArray[np.float32], int]:
+    wav = read_wav(source.path)
+    first, last = source.span(len(wav.samples), wav.sample_rate_hz)
+    return wav.samples[first:last], wav.sample_rate_hz
 
 
 @dataclass(frozen=True)
@@ -224,22 +240,82 @@ class ParameterHeader:
 
 
 def read_header(path: str | PathLike[str]) -> ParameterHeader:
-    """The header of a parameter file. Raises IoError; FormatError naming file and byte."""
-    data = read_bytes(path, MAX_MODEL_BYTES)
-    if data.startswith(b"RIFF"):
-        raise FormatError(f"{fspath(path)}: is a WAV file, which SOURCEFORMAT = WAV, or -F WAV, reads")
-    return ParameterHeader(*HtkParameterFile.parse_header(data, fspath(path)))
+    """The header of a parameter file, of which no more is read.
+
+    Raises
+    ------
+    IoError
+        For a file that cannot be read.
+    FormatError
+        For a header that is none, and a file of another size than it says; names file and byte.
+    """
+    with regular_file(path) as file:
+        if file.read(4) == b"RIFF":
+            raise FormatError(f"{fspath(path)}: is a WAV file, which SOURCEFORMAT = WAV, or -F WAV, reads")
+    return ParameterHeader(*HtkParameterFile.read_header(path))
 
 
 def load_observations(
-    source: str | PathLike[str], kind: str, configuration: HtkConfiguration
+    source: str | PathLike[str], kind: str, configuration: HtkConfiguration, first: int = 0, last: int | None = None
 ) -> tuple[NDArray[np.float32], int]:
     """Frames of a file as models of this kind see them, shape (num_frames, num_columns), and their period in 100 ns.
 
-    Of a recording they are computed; errors as of `code_file`.
+    Of a recording they are computed. Of a parameter file no more is read than the frames asked for and those beside
+    them that differences take, unless `_Z`, or another base, takes all.
+
+    Parameters
+    ----------
+    source : path
+    kind : str
+    configuration : Configuration
+    first, last : int
+        Of a part, both included; None: to the end.
+
+    Raises
+    ------
+    IoError, FormatError, InvalidArgument
+        As `code_file` does; FormatError also where there are fewer frames.
     """
-    file = _code([Source(source)], configuration)
-    return observed(file, kind, configuration, fspath(source)), file.sample_period
+    name = fspath(source)
+    is_part = first > 0 or last is not None
+    beside = None
+    if is_part and not _is_recording(source, configuration):
+        header = read_header(source)
+        beside = _frames_beside(header.kind, kind, configuration)
+    if beside is None:
+        file = _code([Source(source)], configuration)
+        frames = observed(file, kind, configuration, name)
+        if not is_part:
+            return frames, file.sample_period
+        begin, end = 0, _end_of_part(first, last, len(frames), name)
+    else:
+        end = _end_of_part(first, last, header.num_frames, name)
+        begin = max(first - beside, 0)
+        file = HtkParameterFile.read_frames(source, begin, min(end + beside, header.num_frames))
+        frames = observed(file, kind, configuration, name)
+    # A copy: the frames around the part are not kept with it.
+    return frames[first - begin : end - begin].copy(), file.sample_period
+
+
+def _end_of_part(first: int, last: int | None, num_frames: int, name: str) -> int:
+    """The frame behind the last of a part."""
+    end = num_frames if last is None else last + 1
+    if first < 0 or first >= end:
+        raise InvalidArgument(f"{name}: there is no frame from {first} to {end - 1}")
+    if end > num_frames:
+        raise FormatError(f"{name}: has {num_frames} frames, none with number {end - 1}")
+    return end
+
+
+def _frames_beside(kind: str, wanted: str, configuration: HtkConfiguration) -> int | None:
+    """How many frames on each side `observed` takes to make one of a file of this kind; None: all."""
+    is_discrete = _uncompressed(kind) == DISCRETE
+    written = kind if configuration.has_codewords and is_discrete else configuration.written_kind(kind)
+    seen = _uncompressed(written) if wanted in ("ANON", DISCRETE) else wanted
+    steps = [
+        HtkParameterFile.frames_beside(*kinds, configuration.features) for kinds in ((kind, written), (written, seen))
+    ]
+    return None if None in steps else sum(step for step in steps if step is not None)
 
 
 def _code_audio(

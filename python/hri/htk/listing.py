@@ -5,18 +5,61 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from os import PathLike
+
+import numpy as np
+from numpy.typing import NDArray
 
 from hri._native import HtkParameterFile
 from hri.core.errors import InvalidArgument
+from hri.htk.coding import ParameterHeader, read_header
 
 WIDTH = 86
 MARGIN = 7
 ITEMS_A_LINE = 10
 OF_INTEGERS = ("WAVEFORM", "DISCRETE")
+_VALUES_AT_ONCE = 1 << 18
+
+
+def header_of(file: HtkParameterFile | str | PathLike[str]) -> ParameterHeader:
+    """What a file, or the one of this path, says of itself; errors as of `read_header`."""
+    if not isinstance(file, HtkParameterFile):
+        return read_header(file)
+    num_frames, num_columns = file.values.shape
+    return ParameterHeader(file.kind, file.sample_period, num_frames, num_columns)
+
+
+def blocks_of(
+    file: HtkParameterFile | str | PathLike[str], first: int = 0, last: int = -1
+) -> Iterator[NDArray[np.float32]]:
+    """Frames of a file, one array behind the other; of a path no more is in memory than one of bounded size.
+
+    Parameters
+    ----------
+    file : ParameterFile or path
+        Of a path that is read from end to end the checksum of _K is checked before the first.
+    first, last : int
+        Both included, as far as there are so many; -1: to the end.
+
+    Raises
+    ------
+    IoError, FormatError
+        As `ParameterFile.read` does; of a path for the frames asked for.
+    """
+    if isinstance(file, HtkParameterFile):
+        yield file.values[first : None if last < 0 else last + 1]
+        return
+    header = read_header(file)
+    end = header.num_frames if last < 0 else min(last + 1, header.num_frames)
+    if first == 0 and end == header.num_frames:
+        HtkParameterFile.verify(file)
+    step = max(1, _VALUES_AT_ONCE // header.num_columns)
+    for begin in range(first, end, step):
+        yield HtkParameterFile.read_frames(file, begin, min(begin + step, end)).values
 
 
 def list_parameters(
-    file: HtkParameterFile,
+    file: HtkParameterFile | str | PathLike[str],
     name: str,
     first: int = 0,
     last: int = -1,
@@ -30,7 +73,8 @@ def list_parameters(
 
     Parameters
     ----------
-    file : ParameterFile
+    file : ParameterFile or path
+        Of a path a bounded part is in memory at a time.
     name : str
         Of the file, for the header.
     first, last : int
@@ -46,23 +90,25 @@ def list_parameters(
     header_lines : bool
         Whether, with `header`, its lines are printed, too, and not only those that frame the values.
     """
-    frames = file.values
+    shown = header_of(file)
     if header and header_lines:
-        width = 2 if file.kind.startswith((*OF_INTEGERS, "IREFC")) or "_C" in file.kind else 4
+        width = 2 if shown.kind.startswith((*OF_INTEGERS, "IREFC")) or "_C" in shown.kind else 4
         yield f" {title}: {name} ".center(WIDTH, "-")
-        yield f"  Sample Bytes:  {frames.shape[1] * width:<8} Sample Kind:   {file.kind}"
-        yield f"  Num Comps:     {frames.shape[1]:<8} Sample Period: {file.sample_period / 10:.1f} us"
-        yield f"  Num Samples:   {len(frames):<8} File Format:   HTK"
+        yield f"  Sample Bytes:  {shown.num_columns * width:<8} Sample Kind:   {shown.kind}"
+        yield f"  Num Comps:     {shown.num_columns:<8} Sample Period: {shown.sample_period / 10:.1f} us"
+        yield f"  Num Samples:   {shown.num_frames:<8} File Format:   HTK"
     if values:
-        whole = file.kind.startswith(OF_INTEGERS)
-        end = len(frames) if last < 0 else min(last + 1, len(frames))
+        whole = shown.kind.startswith(OF_INTEGERS)
         if header:
             yield f" Samples: {first}->{last} ".center(WIDTH, "-")
-        for number in range(first, end):
-            cells = [f"{value:8.0f}" if whole else f"{value:8.3f}" for value in frames[number]]
-            for at in range(0, len(cells), items):
-                mark = f"{number}:" if at == 0 else ""
-                yield mark.ljust(MARGIN) + " ".join(cells[at : at + items])
+        number = first
+        for block in blocks_of(file, first, last):
+            for row in block:
+                cells = [f"{value:8.0f}" if whole else f"{value:8.3f}" for value in row]
+                for at in range(0, len(cells), items):
+                    mark = f"{number}:" if at == 0 else ""
+                    yield mark.ljust(MARGIN) + " ".join(cells[at : at + items])
+                number += 1
     if header:
         yield " END ".center(WIDTH, "-")
 

@@ -39,14 +39,6 @@ class DataFile:
     first: int | None = None
     last: int | None = None
 
-    def cut(self, frames: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Frames of the part. Raises FormatError where the file has less."""
-        if self.first is None or self.last is None:
-            return frames
-        if self.last >= len(frames):
-            raise FormatError(f"{self.path}: has {len(frames)} frames, none with number {self.last}")
-        return frames[self.first : self.last + 1]
-
 
 def data_files(given: Sequence[str], scripts: Iterable[str], what: str) -> list[DataFile]:
     """The recordings of the command line and of scripts: `path`, `name=path`, each perhaps with `[first,last]`.
@@ -141,7 +133,7 @@ def _check_kind(path: str, kind: str, columns: int | None, models: ModelSet, con
 
 
 def load_frames(file: DataFile, models: ModelSet, configuration: Configuration) -> NDArray[np.float32]:
-    """Frames as models see them; errors as of `load_observations`, with the file.
+    """Frames as models see them; of a part these alone. Errors as of `load_observations`, with the file.
 
     Raises
     ------
@@ -149,14 +141,15 @@ def load_frames(file: DataFile, models: ModelSet, configuration: Configuration) 
         Also for a codeword that discrete models have not: names file and frame.
     """
     try:
-        frames, _ = load_observations(file.path, models.kind, configuration)
+        frames, _ = load_observations(file.path, models.kind, configuration, file.first or 0, file.last)
     except InvalidArgument as error:
         raise FormatError(f"{file.path}: {error}") from error
     if models.num_codewords:
         outside = np.flatnonzero((frames[:, 0] < 1) | (frames[:, 0] > models.num_codewords))
         if outside.size:
+            number = (file.first or 0) + outside[0]
             raise FormatError(
-                f"{file.path}: frame {outside[0]} has the codeword {frames[outside[0], 0]:g}, and the models have 1 to "
+                f"{file.path}: frame {number} has the codeword {frames[outside[0], 0]:g}, and the models have 1 to "
                 f"{models.num_codewords}"
             )
-    return file.cut(frames)
+    return frames

@@ -29,10 +29,11 @@ from hri.core.files import make_folder
 from hri.htk import (
     Label,
     MasterLabelFile,
-    ParameterFile,
     Source,
     Transcription,
+    blocks_of,
     code_sources,
+    header_of,
     list_parameters,
     observation_names,
 )
@@ -270,10 +271,9 @@ def list_files(
     if target and not is_coded:
         raise click.UsageError("-t shows what a configuration makes of a file: name one with TARGETKIND with -C")
     for name in all_arguments(files, scripts):
-        source = None if configuration.source_format == "WAV" else ParameterFile.read(name)
-        file = code_sources([Source(name)], configuration) if is_coded else source
-        assert file is not None
-        shown = source if source is not None else file
+        # A file as it is is shown piece by piece.
+        file = code_sources([Source(name)], configuration) if is_coded else name
+        shown = file if configuration.source_format == "WAV" else name
         if header:
             for line in list_parameters(shown, name, header=True, values=False):
                 click.echo(line)
@@ -281,10 +281,12 @@ def list_files(
             for line in list_parameters(file, name, header=True, values=False, title="Target"):
                 click.echo(line)
         if structure:
-            click.echo(" ".join(observation_names(file.kind, file.values.shape[1])))
+            seen = header_of(file)
+            click.echo(" ".join(observation_names(seen.kind, seen.num_columns)))
         if raw:
-            for row in file.values[first : None if last < 0 else last + 1]:
-                click.echo(" ".join(f"{value:e}" for value in row))
+            for block in blocks_of(file, first, last):
+                for row in block:
+                    click.echo(" ".join(f"{value:e}" for value in row))
         elif not no_values:
             for line in list_parameters(file, name, first, last, header, items, header_lines=False):
                 click.echo(line)

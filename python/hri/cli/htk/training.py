@@ -223,4 +223,4 @@ def segments(
             assert one.first is not None and one.last is not None
             segment = frames[round(one.first / period) : round(one.last / period)]
             if len(segment):
-                yield f"{source}: line {one.line}", segment
+                yield f"{source}: line {one.line}", segment.copy()  # the others of the file are not kept with it
