@@ -307,6 +307,14 @@ def test_transcribe_goes_on_behind_a_bad_recording(hri, kept: tuple[Path, Path],
     assert [line.split("\t")[0] for line in lines] == [str(file)] * 4 + [str(other)] * 4
 
 
+def test_a_grammar_with_another_word_is_named(hri, kept: tuple[Path, Path], tmp_path: Path) -> None:
+    model, file = kept
+    path = tmp_path / "three.jsgf"
+    path.write_text("#JSGF V1.0;\ngrammar g;\npublic <s> = 1 3;\n")
+    refused = hri("transcribe", file, "--model", model, "--grammar", path)
+    assert refused.code == 3 and f"{path}: the grammar has the word '3', which is no label" in refused.err
+
+
 def test_words_of_no_sentence_of_the_grammar_are_no_result(hri, kept: tuple[Path, Path], tmp_path: Path) -> None:
     model, file = kept
     (tmp_path / "long.jsgf").write_text(

@@ -229,7 +229,11 @@ def _choose_sentences(
     if no_language:
         recognizer.set_language(None)
     if grammar is not None:
-        recognizer.set_grammar(Grammar.load(grammar))
+        sentences = Grammar.load(grammar)
+        try:
+            recognizer.set_grammar(sentences)
+        except InvalidArgument as error:
+            raise InvalidArgument(f"{grammar}: {error}") from error
     if language is not None:
         recognizer.set_language(load_language(language, [str(label) for label in recognizer.classes_]))
         if scale is None and held != "language model" and recognizer.language_scale == 1:
