@@ -136,10 +136,13 @@ def test_photos_show_a_face_and_one_hand(photos: list[Path]) -> None:
 
 
 def test_the_study_compares_masks_with_joints(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for number in range(5):
-        folder = tmp_path / hands_in_rooms.DATA / "hand" / "palm"
+    for place, count in (("hand/palm", 5), ("hand/no_class", 2), ("body/left", 3)):
+        folder = tmp_path / hands_in_rooms.DATA / place
         folder.mkdir(parents=True, exist_ok=True)
-        cv2.imwrite(str(folder / f"{number}.jpg"), room((80, 120))[0])
+        for number in range(count):
+            frame = room((80, 120))[0]
+            frame[:20, :20] = 0 if number == 1 else 255
+            cv2.imwrite(str(folder / f"{number}.jpg"), frame)
     hand = np.array([(80 + x, 112 + y) for x in (-10, 0, 10) for y in range(-18, 18, 5)][:21], np.float32)
 
     class Tracker:
@@ -148,28 +151,45 @@ def test_the_study_compares_masks_with_joints(tmp_path: Path, monkeypatch: pytes
             return self
 
         def __exit__(self, *_: object) -> None: ...
-        def find_all(self, _: Frame) -> list[NDArray[np.float32]]:
-            return [hand + np.float32(60), hand]
+        def find_all(self, frame: Frame) -> list[NDArray[np.float32]]:
+            return [hand + np.float32(60), hand] if frame[:10, :10].mean() > 128 else []
 
     class Faces:
         def find(self, _: Frame) -> Face:
             return FACE
 
     def find_hands(frames: list[Frame], max_hands: int, faces: object) -> dict[str, list[object]]:
-        assert max_hands == 1
+        nothing = SimpleNamespace(mask=np.zeros((240, 320), np.uint8))
         if faces == "never":
-            return {"hand": [SimpleNamespace(mask=np.zeros((240, 320), np.uint8))]}
-        return {"hand": [PersonHands().extract(frames[0], FACE)]}
+            return {"hand": [nothing]}
+        found = PersonHands().extract(frames[0], FACE)
+        return {"hand": [found]} if max_hands == 1 else {"left": [found], "right": [nothing]}
 
     monkeypatch.setattr(hands_in_rooms, "LandmarkTracker", Tracker)
     monkeypatch.setattr(hands_in_rooms, "face_finder", lambda required: Faces())
     monkeypatch.setattr(hands_in_rooms, "find_hands", find_hands)
     study = studies.get_study("hands-in-rooms")
-    result = studies.run_study(study, tmp_path, lambda *_: None, {"signs": ("hand",)})
-    rows = {(row["pictures"], row["way"]): row for row in result["rows"]}
-    assert rows["chosen on", "with-face"]["counts"] == {"pictures": 2, "hands": 2}
-    assert rows["others", "with-face"]["found_mean"] == 1 and rows["others", "with-face"]["shared_mean"] > 0.4
-    assert rows["others", "without-face"]["found_mean"] == 0 and rows["others", "with-face"]["face_mean"] == 1
+    result = studies.run_study(study, tmp_path, lambda *_: None)
+    rows = {(row["signs"], row["pictures"], row["way"]): row for row in result["rows"]}
+    # The first two of seven pictures show no sign; that at 4 chooses, that at 3 has no joints.
+    chosen, others = (rows["hand", part, "with-face"] for part in ("chosen on", "others"))
+    assert chosen["counts"] == {"pictures": 1, "hands": 1, "without joints": 0}
+    assert others["counts"] == {"pictures": 3, "hands": 3, "without joints": 1}
+    assert others["found_mean"] == 1 and others["shared_mean"] > 0.4 and others["face_mean"] == 1
+    assert rows["hand", "others", "without-face"]["found_mean"] == 0
+    assert rows["hand", "all", "landmarks"]["found_mean"] == 4 / 5, "of all pictures with a sign"
+    assert rows["body", "chosen on", "with-face"]["counts"] == {"pictures": 2, "hands": 4, "without joints": 1}
+    assert rows["body", "all", "landmarks"]["counts"] == {"pictures": 3, "hands": 4, "without joints": 1}
+    assert rows["body", "all", "landmarks"]["found_mean"] == 2 / 3
+    met = result["passed_by"]
+    assert met.keys() == {
+        *(f"{signs}, {what}" for signs in ("hand", "body") for what in ("with-face, found", "with-face, shared")),
+        *(f"{signs}, landmarks, found" for signs in ("hand", "body")),
+    }
+    assert met["hand, with-face, found"] and not met["hand, landmarks, found"]
+    assert not met["body, with-face, found"] and result["passed"] is False, "half of both hands is missed"
+    alone = studies.run_study(study, tmp_path, lambda *_: None, {"signs": ("hand",), "way": ("without-face",)})
+    assert alone["passed"] is None and {row["way"] for row in alone["rows"]} == {"without-face"}
     monkeypatch.undo()
     monkeypatch.setattr(faces, "find_cascade", lambda: None)
     with pytest.raises(InvalidArgument, match="opencv-data"):
