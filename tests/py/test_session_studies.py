@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from hri.cli.study import _summary
 from hri.live import Event
 from hri.robot import HOAP2, rest_positions
 from hri.session.logic import session_event
@@ -187,3 +188,13 @@ def test_the_studies_are_listed(name: str):
     from hri.studies import get_study
 
     assert get_study(name).folds
+
+
+def test_what_stands_beside_the_rows_is_printed():
+    result = {
+        "latency": {"stop_wait_ms": {"median": 100.0, "95 %": 250.0, "most": 260.0}},
+        "stream_against_file": {"num_words": 67, "substitutions": 7, "deletions": 1, "insertions": 2},
+    }
+    lines = [line.strip() for line in _summary(result)]
+    assert lines[1:3] == ["stop_wait_ms", "median\t100, 95 % 250, most 260"]
+    assert lines[4] == "of 67 words\t7 substitutions, 1 deletions, 2 insertions"
