@@ -204,14 +204,17 @@ def test_nonsense_is_reported_and_ignored(server: PageServer, cookie: str, notes
         page.command("decision", speech([("flat", 0.8)], 3.2), final="flat")  # the session has taken no harm
 
 
-def test_pictures_of_changing_size_leave_the_session_alive(server: PageServer, cookie: str) -> None:
+def test_pictures_of_changing_size_leave_the_session_alive(
+    server: PageServer, cookie: str, notes: pytest.LogCaptureFixture
+) -> None:
     rng = np.random.default_rng(4)
     with connected(server, cookie) as page:
         for side in (160, 120, 64, 33, 160, 1, 160):
             frame = np.ascontiguousarray(picture("flat", HIDDEN, rng)[:side, :side])
             page.socket.send(framed(PICTURE, jpeg(frame)))
             time.sleep(0.02)
-        page.await_message(lambda m: m.get("event") == "stall" and "are now" in m["message"])
+        warning = page.await_message(lambda m: m.get("event") == "stall" and "are now" in m["message"])["message"]
+        assert warning.startswith("camera: pictures of ") and notes.text.count(f"gesture: {warning}") == 1
         said, shown = speech([("flat", 0.8)], 3.4), signing([("flat", 0.6)], 3.4)
         page.command("fused", said, shown, final="flat", carried_by="both")
 
@@ -245,6 +248,46 @@ def test_ten_thousand_messages_a_second_are_sent_away(
     until(lambda: robot.stopped)  # without a page nothing moves
     with connected(server, cookie) as page:
         page.command("motion_start", speech([("flat", 0.8)], 3.2), label="flat")
+
+
+def test_pictures_above_their_rate_are_left_out(
+    server: PageServer, cookie: str, stage: Stage, notes: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    taken: list[float] = []
+    monkeypatch.setattr(stage.camera, "put", lambda picture: taken.append(picture.sent_ms))
+    message = framed(PICTURE, jpeg(picture("flat", HIDDEN, np.random.default_rng(4))))
+    warning = "more than 30 pictures a second: some were left out"
+    with connected(server, cookie) as page:
+        begun_s = time.monotonic()
+        for _ in range(90):
+            page.socket.send(message)
+        page.error(warning)
+        page.say(type="nonsense")  # answered after what came before it
+        page.error("no command")
+        assert 30 <= len(taken) <= 30 + 30 * (time.monotonic() - begun_s) and len(taken) < 90
+        monkeypatch.undo()
+        page.command("decision", frames=signing([("tall", 0.6)], 3.4), mode="gesture", final="tall")
+    assert warning in notes.text
+
+
+def test_more_sound_than_a_microphone_gives_is_left_out(
+    server: PageServer, cookie: str, stage: Stage, notes: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    taken: list[int] = []
+    monkeypatch.setattr(stage.microphone, "put", lambda samples: taken.append(len(samples)))
+    warning = "more sound than a microphone gives was ignored"
+    with connected(server, cookie) as page:
+        begun_s = time.monotonic()
+        for _ in range(12):
+            page.socket.send(framed(SOUND, bytes(2 * RATE_HZ)))  # a second
+        page.error(warning)
+        page.say(type="nonsense")
+        page.error("no command")
+        most_s = 4 + 2 * (time.monotonic() - begun_s)
+        assert 4 * RATE_HZ <= sum(taken) <= most_s * RATE_HZ and sum(taken) < 12 * RATE_HZ
+        monkeypatch.undo()
+        page.command("decision", speech([("flat", 0.8)], 3.2), final="flat")
+    assert warning in notes.text
 
 
 def test_who_does_not_begin_as_the_page_does_is_sent_away(serving: Serving, words: Any) -> None:

@@ -12,7 +12,7 @@ pytest.importorskip("browsing")
 
 from browsing import MARKS, WAIT_MS, expect
 from hri.serve import PageServer, ServeLimits, Stage
-from session_people import speech
+from session_people import signing, speech
 
 pytest_plugins = ("serving", "browsing")
 pytestmark = MARKS
@@ -69,6 +69,40 @@ def test_start_opens_only_what_is_not_open(visit: Any) -> None:
     await_opened(page, [2, 2, 1])
     expect(page, "#level-label").to_have_text("Microphone: on")
     expect(page, "#start").to_be_disabled()
+    assert page.failures == []
+
+
+REFUSE = """
+  const media = navigator.mediaDevices, ask = media.getUserMedia.bind(media);
+  media.getUserMedia = async (wanted) => {
+    if (wanted.%s && !window.plugged) throw new DOMException("said by the browser", "%s");
+    return ask(wanted);
+  };
+"""
+
+
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        ("NotFoundError", "No {} was found. Plug one in and press Start again."),
+        ("NotReadableError", "Another program uses the {}. Close that program and press Start again."),
+    ],
+)
+@pytest.mark.parametrize(("kind", "device"), [("video", "camera"), ("audio", "microphone")])
+def test_a_device_that_is_missing_or_in_use_is_said_and_the_other_goes_on(
+    visit: Any, kind: str, device: str, error: str, said: str
+) -> None:
+    shown = signing([("tall", 1.2)], 4.0)
+    page = visit(speech([("tall", 1.6)], 4.0), shown, script=REFUSE % (kind, error))
+    page.click("#start")
+    expect(page, "#problems").to_have_text(said.format(device))
+    expect(page, "#decided").to_have_text("tall")  # by the other device
+    expect(page, "#camera-line" if kind == "video" else "#level-label").to_have_text(f"{device.capitalize()}: off")
+    expect(page, "#start").to_be_enabled()
+    page.evaluate("window.plugged = true")
+    page.click("#start")
+    expect(page, "#problems").to_be_empty()
+    expect(page, f"#bars-{'gesture' if kind == 'video' else 'speech'} li:first-child").to_contain_text("tall")
     assert page.failures == []
 
 

@@ -15,9 +15,10 @@ import pytest
 
 import hri
 from conftest import RATE_HZ
+from drawn_hands import FPS
 from hri.core.errors import FormatError, InvalidArgument, IoError
 from hri.fusion import FusionOptions
-from hri.live import ArraySource, Event, Listener, Stalled
+from hri.live import ArraySource, ClipSource, Event, Listener, Stalled
 from hri.live.events import STALL
 from hri.recognition.decision import Decision, NBest
 from hri.robot import Robot, Trajectory, open_robot
@@ -28,7 +29,7 @@ from hri.session.feeds import Alignment, Feed, merge
 from hri.session.live import LiveFeeds
 from hri.session.logic import NoRobot, SessionLogic, moved_event
 from hri.session.mover import Cause, Moved, Mover
-from session_people import MOTIONS, speech, train_words
+from session_people import MOTIONS, signing, speech, train_signs, train_words
 
 pytest.importorskip("cv2")
 
@@ -121,6 +122,22 @@ def test_two_sessions_cannot_read_one_source(words: hri.WordRecognizer) -> None:
     assert [e.fields["message"] for e in live if e.event == STALL and "in use" in e.fields["message"]]
     assert "flat" in [e.fields["final"] for e in first if e.event == "fused"], "the first goes on"
     assert list(Session(words).run(shared)), "it is free again"
+
+
+def test_a_second_session_of_one_camera_is_refused_and_hears_and_the_first_goes_on(words: hri.WordRecognizer) -> None:
+    signs = train_signs()
+    shared = ClipSource(signing([("tall", 1.2)], 4.0), FPS, name="the camera")
+    first = Session(words, signs).run(ArraySource(speech([], 4.0), RATE_HZ), shared)
+    next(first)
+    with pytest.raises(IoError, match="the camera is in use: another session reads it"):
+        list(Session(None, signs).run(pictures=shared))
+    second = list(
+        Session(words, signs).run(ArraySource(speech([("flat", 1.5)], 4.0), RATE_HZ), lambda: shared, live=True)
+    )
+    message = {e.fields["message"] for e in second if e.event == STALL and e.mode == "gesture"}
+    assert message == {"the camera is in use: another session reads it; give each session a source of its own"}
+    assert "flat" in [e.fields["final"] for e in second if e.event == "fused"], "its microphone goes on"
+    assert "tall" in [e.fields["final"] for e in first if e.event == "fused"], "so does the first session"
 
 
 def test_a_source_is_back_when_it_is_open_again() -> None:

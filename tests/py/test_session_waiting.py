@@ -11,8 +11,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hri.live import Event
 from hri.recognition.decision import RECOGNISED, Decision, NBest
 from hri.session import Observation, Pair, Pairer, SessionOptions
+from hri.session.feeds import Arrival
+from hri.session.logic import NoRobot, SessionLogic
+from hri.session.mover import Cause
 
 OTHER = {"speech": "gesture", "gesture": "speech"}
 
@@ -81,6 +85,99 @@ def test_nothing_waits_longer_than_max_wait_s() -> None:
     assert made.tick("gesture", 5.49) == []
     (alone,) = made.tick("gesture", 5.51)
     assert labels(alone) == ("second", "") and made.waiting == 0
+
+
+def shown() -> Pairer:
+    """A sign that was held from 1.0 to 2.0 s and decided on, and whose hand began to move away at 2.5 s."""
+    made = pairer()
+    made.begin("gesture", 1.0, 1.2)
+    assert made.observe(one("gesture", "sign", 1.0, 2.0), 2.0) == []
+    made.begin("gesture", 2.5, 2.6)
+    return made
+
+
+@pytest.mark.parametrize(("word_s", "paired"), [(2.4, True), (3.2, True), (3.79, True), (3.85, False)])
+def test_a_sign_that_is_taken_away_ends_then(word_s: float, paired: bool) -> None:
+    made = shown()
+    assert made.drop("gesture", 3.1, 2.8) == []
+    assert made.tick("speech", min(3.9, word_s)) == made.tick("gesture", min(3.9, word_s)) == []
+    made.begin("speech", word_s, word_s + 0.1)
+    pairs = made.tick("gesture", 4.1) + made.observe(one("speech", "word", word_s, word_s + 0.5), word_s + 0.8)
+    assert [labels(pair) for pair in pairs] == [("word", "sign") if paired else ("", "sign")]
+    if paired:
+        assert pairs[0].apart_s == pytest.approx(max(0.0, word_s - 2.8))
+        assert pairs[0].last_s == max(2.0, word_s + 0.5), "it was found to end before that"
+
+
+def test_a_sign_waits_while_it_may_be_taken_away_and_no_longer() -> None:
+    made = shown()
+    for time_s in (3.0, 3.5, 3.9):
+        assert made.tick("speech", time_s) == made.tick("gesture", time_s) == []
+    (alone,) = made.tick("gesture", 4.01)  # what has gone on for 1.5 s is another gesture
+    assert labels(alone) == ("", "sign")
+    held = pairer()
+    held.observe(one("gesture", "sign", 1.0, 2.0), 2.0)
+    assert held.tick("speech", 3.2) == []
+    (alone,) = held.tick("speech", 3.3)
+    assert labels(alone) == ("", "sign"), "one that is held on does not wait for its end"
+
+
+@pytest.mark.parametrize("gone_s", [-math.inf, 2.9])
+def test_what_comes_after_it_was_taken_away_does_not_prolong_a_sign(gone_s: float) -> None:
+    made = shown()
+    assert made.drop("gesture", 3.0, gone_s) == []
+    made.begin("gesture", 3.1, 3.2)
+    if gone_s > 0:
+        assert made.drop("gesture", 3.5, 3.45) == []
+        (alone,) = made.tick("speech", 4.2)  # 2.9 + 1.0 + 0.25 s
+        assert labels(alone) == ("", "sign")
+    else:
+        made.drop("gesture", 3.5)
+        assert [labels(pair) for pair in made.tick("speech", 3.5)] == [("", "sign")]
+
+
+def test_an_unsure_stop_is_not_held_back_by_the_hand_that_showed_it() -> None:
+    made = pairer()
+    stop = Decision("gesture", "stop", RECOGNISED, 0.4, nbest=(NBest("stop", 0.4, -0.9), NBest("up", 0.3, -1.2)))
+    assert made.observe(Observation(stop, 1.0, 2.0), 2.0) == []
+    made.begin("gesture", 2.5, 2.6)
+    made.hurried = True
+    assert [labels(pair) for pair in made.tick("gesture", 2.7)] == [("", "stop")]
+
+
+class Caused(NoRobot):
+    """Keeps what each motion answers."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.causes: list[Cause] = []
+
+    def begin(self, label: str, cause: Cause) -> None:
+        self.causes.append(cause)
+        super().begin(label, cause)
+
+
+@pytest.mark.parametrize("paired", [False, True])
+def test_what_waited_counts_the_time_that_recognising_it_took(paired: bool) -> None:
+    body = Caused()
+    logic = SessionLogic(SessionOptions(confirm_below=0.0), body, ("up",))
+
+    def heed(mode: str, kind: str, time_s: float, at_s: float, found: Observation | None = None, **fields: Any) -> None:
+        if found is not None:
+            fields |= {"first_s": found.first_s, "last_s": found.last_s}
+        logic.process(Arrival(Event(time_s, kind, fields, found and found.decision, mode), at_s))
+
+    heed("speech", "listening", 0.0, 90.0)
+    heed("gesture", "watching", 0.0, 90.0)
+    heed("speech", "decision", 1.8, 100.0, one("speech", "up", 1.0, 1.5), compute_ms=40.0)
+    assert body.causes == []
+    if paired:  # an arrival's time is that of before the sign was recognised
+        heed("gesture", "decision", 2.6, 101.0, one("gesture", "up", 1.7, 2.4), compute_ms=30.0)
+    else:
+        heed("gesture", "hand", 2.8, 101.0)
+    (cause,) = body.causes
+    assert (cause.last_s, cause.time_s) == ((2.4, 2.6) if paired else (1.5, 2.8))
+    assert cause.computed_s == pytest.approx(101.0 - 0.04)
 
 
 TURNS = st.lists(

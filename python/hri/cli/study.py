@@ -150,6 +150,11 @@ def _summary(result: dict[str, object], indent: str = "") -> list[str]:
         lines.append(f"{indent}16 bits\t{100 * float(str(result['same_decision_16_bit'])):.2f} % of decisions the same")
     if "difference_to_hmm" in result:
         lines.append(f"{indent}difference\t{100 * float(str(result['difference_to_hmm'])):+.2f} points to the HMM")
+    if "median" in result:
+        lines.append(f"{indent}median\t{result['median']:.4g}, 95 % {result['95 %']:.4g}, most {result['most']:.4g}")
+    if "substitutions" in result:
+        counted = ("substitutions", "deletions", "insertions")
+        lines.append(f"{indent}of {result['num_words']} words\t{', '.join(f'{result[k]} {k}' for k in counted)}")
     for key in ("target", "passed"):
         value = result.get(key)
         if value is not None:

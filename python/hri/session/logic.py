@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection
 from typing import Any, Protocol
 
@@ -174,9 +175,11 @@ class SessionLogic:
                 pairs = self.pairer.drop(mode, time_s)
             else:
                 span = event.fields["first_s"], event.fields["last_s"]
-                pairs = self.pairer.observe(Observation(event.decision, *span, event.fields.get("near", "")), time_s)
+                near, compute_ms = event.fields.get("near", ""), _compute_ms(event)
+                pairs = self.pairer.observe(Observation(event.decision, *span, near, compute_ms), time_s)
         elif event.event in _DROPS and mode not in self._unsettled:
-            pairs = self.pairer.drop(mode, time_s)
+            left = event.fields.get("reason") == "left"
+            pairs = self.pairer.drop(mode, time_s, event.fields["last_s"] if left else -math.inf)
         elif is_over(event):
             self._unsettled.discard(mode)
             pairs = self.pairer.leave(mode, time_s)
@@ -184,14 +187,18 @@ class SessionLogic:
             if event.event == kinds.PRELIMINARY:  # what was shown may go on
                 self._unsettled.add(mode)
             pairs = self.pairer.tick(mode, time_s)
-        self._decide(pairs, cause, out)
+        self._decide(pairs, cause, out, _compute_ms(event))
         self._time_passes(time_s, cause, out)
 
-    def _decide(self, pairs: list[Pair], cause: Cause, out: list[Event]) -> None:
-        """Heed what was decided on at the time of the cause."""
+    def _decide(self, pairs: list[Pair], cause: Cause, out: list[Event], counted_ms: float = 0.0) -> None:
+        """Heed what was decided on at the time of the cause, which counts so much of the time of recognition.
+
+        What waited was recognised before; that it took time counts, too.
+        """
         for pair in pairs:
             out.append(fused_event(pair, cause.time_s))
-            decided = Cause(pair.last_s, cause.time_s, cause.computed_s)
+            before_ms = max(0.0, pair.compute_ms - counted_ms)
+            decided = Cause(pair.last_s, cause.time_s, cause.computed_s - 1e-3 * before_ms)
             self._do(self.dialogue.decide(pair, cause.time_s), decided, out)
 
     def _is_own(self, event: Event) -> bool:
@@ -289,6 +296,10 @@ class SessionLogic:
         if action.kind == acts.SENTENCE:
             return sentence_event(action, time_s)
         return session_event(time_s, action.kind, label=action.label, reason=action.text)
+
+
+def _compute_ms(event: Event) -> float:
+    return float(event.fields.get("compute_ms", 0.0))
 
 
 def session_event(time_s: float, kind: str, **fields: Any) -> Event:

@@ -53,7 +53,8 @@ class Cause:
     time_s : float
         When it was decided on, in the session's time.
     computed_s : float
-        Of `time.perf_counter` when the samples or pictures that decided it were there.
+        Of `time.perf_counter` when the samples or pictures that decided it were there; earlier by what recognising that
+        which waited had taken before.
     """
 
     last_s: float

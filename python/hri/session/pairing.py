@@ -17,6 +17,8 @@ from hri.session.options import SessionOptions
 MODES = ("speech", "gesture")
 CHANCE = 0.5
 """A stop label below this confidence is unsure, even where training set no threshold: more likely wrong than right."""
+_TAKE_AWAY_S = 1.5
+"""A hand that has begun to move, and is in view for longer, is not being taken away."""
 _OTHER = {"speech": "gesture", "gesture": "speech"}
 
 
@@ -32,12 +34,18 @@ class Observation:
         When it was said or shown, in the session's time.
     near : str
         The label that was rejected by little, if it is an urgent one, see `hri.live.Listener`.
+    compute_ms : float
+        What recognising it took.
+    gone_s : float
+        Of a sign that was held, and then taken away: when the hand was gone.
     """
 
     decision: Decision
     first_s: float
     last_s: float
     near: str = ""
+    compute_ms: float = 0.0
+    gone_s: float = -math.inf
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.first_s) and self.first_s <= self.last_s < math.inf):
@@ -47,6 +55,11 @@ class Observation:
     def mode(self) -> str:
         """The mode, "speech" or "gesture"."""
         return self.decision.mode
+
+    @property
+    def end_s(self) -> float:
+        """Until when it goes on: a sign is decided on while it is held, and shown until it is taken away."""
+        return max(self.last_s, self.gone_s)
 
 
 @dataclass(frozen=True)
@@ -65,6 +78,8 @@ class Pair:
         Why they were paired, or why one was not waited for any longer.
     taken_back : bool
         One of `SessionOptions.no_labels` followed while it waited.
+    compute_ms : float
+        What recognising both took.
     """
 
     fused: FusedDecision
@@ -73,6 +88,7 @@ class Pair:
     apart_s: float
     why: str
     taken_back: bool = False
+    compute_ms: float = 0.0
 
     @property
     def carried_by(self) -> str:
@@ -98,7 +114,7 @@ class Pairer:
     Times are the session's; those of one mode never fall, and neither mode has to wait for the other. A word and a
     sign belong together when at most `SessionOptions.window_s` lies between them; of several the nearest. What stays
     alone is decided on as soon as nothing that belongs to it can come any more: at once where the other mode has no
-    source.
+    source. A sign that is held ends when it is taken away, if that begins within the window after it was recognised.
 
     Where a learned fusion is given it decides in place of `SessionOptions.rule`.
 
@@ -143,10 +159,13 @@ class Pairer:
         stream = self._streams[mode]
         stream.begun_s = first_s if stream.begun_s is None else min(first_s, stream.begun_s)
 
-    def drop(self, mode: str, time_s: float) -> list[Pair]:
-        """What had begun was no word or sign."""
+    def drop(self, mode: str, time_s: float, gone_s: float = -math.inf) -> list[Pair]:
+        """What had begun was no word or sign; where it was a hand that was taken away, since when that is gone."""
         self._pass(mode, time_s)
-        self._streams[mode].begun_s = None
+        stream = self._streams[mode]
+        if stream.waiting and self._may_be_taken_away(stream.waiting[-1]):
+            stream.waiting[-1] = replace(stream.waiting[-1], gone_s=gone_s)
+        stream.begun_s = None
         return list(self._resolve())
 
     def tick(self, mode: str, time_s: float) -> list[Pair]:
@@ -255,7 +274,7 @@ class Pairer:
         apart = _apart(word, sign)
         for one, other in ((word, sign), (sign, word)):
             begun_s = self._streams[other.mode].begun_s
-            if begun_s is not None and max(0.0, begun_s - one.last_s) < apart and not self._too_late(one):
+            if begun_s is not None and max(0.0, begun_s - one.end_s) < apart and not self._too_late(one):
                 return True
         return False
 
@@ -264,7 +283,7 @@ class Pairer:
         waiting = sorted((o for s in self._streams.values() for o in s.waiting), key=lambda o: (o.last_s, o.mode))
         for observation in waiting:
             other = self._streams[_OTHER[observation.mode]]
-            until_s = observation.last_s + self._options.window_s
+            until_s = observation.end_s + self._options.window_s
             too_late = self._too_late(observation)
             # What it may be paired with waits, too: only until something that is nearer is known, or is none.
             if not too_late and any(_apart(observation, o) <= self._options.window_s for o in other.waiting):
@@ -275,11 +294,23 @@ class Pairer:
                 return observation, phrase("why_too_late", seconds=f"{self._options.max_wait_s:g}")
             if other.begun_s is not None and other.begun_s <= until_s:
                 continue
+            hurried = self.hurried and self.is_stop(observation.decision)
+            if self._may_be_taken_away(observation) and not hurried:
+                continue
             if other.now_s >= until_s + self._options.onset_s:
                 return observation, phrase("why_nothing_else", seconds=f"{self._options.window_s:g}")
-            if self.hurried and self.is_stop(observation.decision) and not other.waiting:
+            if hurried and not other.waiting:
                 return observation, phrase("why_hurried")
         return None
+
+    def _may_be_taken_away(self, observation: Observation) -> bool:
+        """Whether what goes on in its own mode may be the hand that showed it, on its way out of view."""
+        stream = self._streams[observation.mode]
+        if observation.mode != "gesture" or stream.begun_s is None or stream.waiting[-1] is not observation:
+            return False
+        after_s = stream.begun_s - observation.end_s
+        in_time = 0 <= after_s <= self._options.window_s + self._options.onset_s
+        return in_time and observation.gone_s < observation.last_s and stream.now_s <= stream.begun_s + _TAKE_AWAY_S
 
     def _too_late(self, observation: Observation) -> bool:
         return self._now_s >= observation.last_s + self._options.max_wait_s
@@ -289,7 +320,8 @@ class Pairer:
 
     def _alone(self, observation: Observation, why: str) -> Pair:
         fused = self._fused(*(observation.decision if mode == observation.mode else None for mode in MODES))
-        return Pair(fused, observation.first_s, observation.last_s, 0.0, phrase("why_alone", why=why))
+        why = phrase("why_alone", why=why)
+        return Pair(fused, observation.first_s, observation.last_s, 0.0, why, compute_ms=observation.compute_ms)
 
     def _together(self, word: Observation, sign: Observation) -> Pair:
         fused = self._fused(word.decision, sign.decision)
@@ -298,8 +330,9 @@ class Pairer:
             fused = replace(fused, label=UNKNOWN, status=UNKNOWN, confidence=0.0)
         apart = _apart(word, sign)
         why = phrase("why_apart", seconds=f"{apart:.2f}") if apart else phrase("why_at_once")
-        return Pair(fused, min(word.first_s, sign.first_s), max(word.last_s, sign.last_s), apart, why)
+        span = min(word.first_s, sign.first_s), max(word.last_s, sign.last_s)
+        return Pair(fused, *span, apart, why, compute_ms=word.compute_ms + sign.compute_ms)
 
 
 def _apart(one: Observation, other: Observation) -> float:
-    return max(0.0, one.first_s - other.last_s, other.first_s - one.last_s)
+    return max(0.0, one.first_s - other.end_s, other.first_s - one.end_s)
