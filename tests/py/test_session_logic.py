@@ -66,7 +66,7 @@ def test_what_is_up_to_a_second_apart_is_paired_at_once(gap_s: float, speech_fir
 
 
 def test_what_is_further_apart_stays_alone() -> None:
-    made = pairer()
+    made = pairer(window_s=1.0)
     made.observe(word("7", 1.0, 1.8), 2.1)
     made.begin("gesture", 2.9, 3.0)
     ((when, alone),) = advance(made, 3.2)
@@ -75,6 +75,15 @@ def test_what_is_further_apart_stays_alone() -> None:
     assert "nothing else within 1 s" in alone.why
     assert made.observe(sign("5", 2.9, 3.5), 4.0) == []
     assert [pair.fused.label for _, pair in advance(made, 6.0)] == ["5"]
+
+
+def test_what_is_a_second_apart_belongs_together_though_ends_are_found_early() -> None:
+    made = pairer()
+    made.observe(word("7", 1.0, 1.8), 2.1)  # of a word that was said until 2.0
+    made.begin("gesture", 3.0, 3.1)
+    assert advance(made, 3.2) == []
+    (pair,) = made.observe(sign("7", 3.0, 3.6), 4.0)
+    assert pair.fused.speech is not None and pair.fused.gesture is not None
 
 
 def test_a_mode_without_a_source_is_not_waited_for() -> None:

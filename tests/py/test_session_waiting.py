@@ -26,8 +26,8 @@ def one(mode: str, label: str, first_s: float, last_s: float) -> Observation:
     return Observation(Decision(mode, label, RECOGNISED, 0.9, nbest=nbest, class_threshold=0.6), first_s, last_s)
 
 
-def pairer(**options: Any) -> Pairer:
-    made = Pairer(SessionOptions(**options))
+def pairer(window_s: float = 1.0, **options: Any) -> Pairer:
+    made = Pairer(SessionOptions(window_s=window_s, **options))
     for mode in OTHER:
         made.join(mode, 0.0)
     return made
@@ -160,7 +160,7 @@ class Caused(NoRobot):
 @pytest.mark.parametrize("paired", [False, True])
 def test_what_waited_counts_the_time_that_recognising_it_took(paired: bool) -> None:
     body = Caused()
-    logic = SessionLogic(SessionOptions(confirm_below=0.0), body, ("up",))
+    logic = SessionLogic(SessionOptions(confirm_below=0.0, window_s=1.0), body, ("up",))
 
     def heed(mode: str, kind: str, time_s: float, at_s: float, found: Observation | None = None, **fields: Any) -> None:
         if found is not None:

@@ -122,7 +122,7 @@ _OPTIONS = (
         "--confirm-below", type=float, default=0.5, show_default=True, help="Ask for what is less sure; 1: always."
     ),
     click.option(
-        "--window", "window_s", type=float, default=1.0, show_default=True, help="Seconds between word and sign."
+        "--window", "window_s", type=float, default=1.25, show_default=True, help="Seconds between word and sign."
     ),
     click.option("--rule", type=click.Choice(RULES), default=RULES[0], show_default=True, help="How both are fused."),
     click.option(

@@ -25,7 +25,7 @@ class SessionOptions:
     ----------
     window_s : float
         Longest time between the end of a word or sign and the beginning of the one that belongs to it, 0 or more; what
-        overlaps is 0 apart.
+        overlaps is 0 apart. The default pairs what is a second apart: ends are found up to a quarter of a second early.
     onset_s : float
         How long after it began a word or sign is reported at the latest, above 0: for so long after the window the
         other mode is still waited for.
@@ -68,7 +68,7 @@ class SessionOptions:
         For a value out of range, an unknown rule, or a label of two meanings.
     """
 
-    window_s: float = 1.0
+    window_s: float = 1.25
     onset_s: float = 0.25
     max_wait_s: float = 6.0
     rule: str = "table_6_9"
