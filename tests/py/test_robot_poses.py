@@ -3,6 +3,7 @@
 """Motions are checked from where the joints are: those that they do not name, and the way to their first row."""
 
 import json
+from functools import cache
 from importlib.util import find_spec
 
 import numpy as np
@@ -63,6 +64,7 @@ def test_the_check_is_told_where_the_other_joints_are():
     assert check_trajectory(reach("right"), others_rad=HOAP2.rest_rad) == []
 
 
+@cache
 def through_the_chest():
     """Two poses of a left arm that touch nothing, with the chest between them."""
     rng = np.random.default_rng(1)

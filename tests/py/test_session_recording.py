@@ -119,16 +119,18 @@ string coding_format
     }
     for name, text in audio.items():
         types.register(typesys.get_types_from_msg(text, f"audio_common_msgs/msg/{name}"))
-    seen = set()
+    seen, validators = set(), {}
     with path.open("rb") as file:
         rows = reader.make_reader(file)
         for schema, channel, message in rows.iter_messages():
             seen.add(channel.topic)
             assert message.log_time < 8e9
             if channel.message_encoding == "json":
-                shape = json.loads(schema.data)
-                jsonschema.Draft202012Validator.check_schema(shape)
-                jsonschema.validate(json.loads(message.data), shape)
+                if schema.id not in validators:
+                    shape = json.loads(schema.data)
+                    jsonschema.Draft202012Validator.check_schema(shape)
+                    validators[schema.id] = jsonschema.Draft202012Validator(shape)
+                validators[schema.id].validate(json.loads(message.data))
             else:
                 assert (channel.message_encoding, schema.encoding) == ("cdr", "ros2msg")
                 read = types.deserialize_cdr(message.data, schema.name)
