@@ -152,7 +152,9 @@ def test_the_study_compares_masks_with_joints(tmp_path: Path, monkeypatch: pytes
 
         def __exit__(self, *_: object) -> None: ...
         def find_all(self, frame: Frame) -> list[NDArray[np.float32]]:
-            return [hand + np.float32(60), hand] if frame[:10, :10].mean() > 128 else []
+            face = np.array([FACE.left_px, FACE.top_px], np.float32) + np.float32(0.5 * FACE.side_px)
+            taken_for_a_hand = hand - hand.mean(axis=0) + face
+            return [hand + np.float32(60), taken_for_a_hand, hand] if frame[:10, :10].mean() > 128 else []
 
     class Faces:
         def find(self, _: Frame) -> Face:
@@ -173,12 +175,13 @@ def test_the_study_compares_masks_with_joints(tmp_path: Path, monkeypatch: pytes
     rows = {(row["signs"], row["pictures"], row["way"]): row for row in result["rows"]}
     # The first two of seven pictures show no sign; that at 4 chooses, that at 3 has no joints.
     chosen, others = (rows["hand", part, "with-face"] for part in ("chosen on", "others"))
-    assert chosen["counts"] == {"pictures": 1, "hands": 1, "without joints": 0}
-    assert others["counts"] == {"pictures": 3, "hands": 3, "without joints": 1}
+    assert chosen["counts"] == {"pictures": 1, "hands": 1, "without joints": 0, "joints on a face": 1}
+    assert others["counts"] == {"pictures": 3, "hands": 3, "without joints": 1, "joints on a face": 3}
     assert others["found_mean"] == 1 and others["shared_mean"] > 0.4 and others["face_mean"] == 1
     assert rows["hand", "others", "without-face"]["found_mean"] == 0
     assert rows["hand", "all", "landmarks"]["found_mean"] == 4 / 5, "of all pictures with a sign"
-    assert rows["body", "chosen on", "with-face"]["counts"] == {"pictures": 2, "hands": 4, "without joints": 1}
+    both = {"pictures": 2, "hands": 4, "without joints": 1, "joints on a face": 2}
+    assert rows["body", "chosen on", "with-face"]["counts"] == both
     assert rows["body", "all", "landmarks"]["counts"] == {"pictures": 3, "hands": 4, "without joints": 1}
     assert rows["body", "all", "landmarks"]["found_mean"] == 2 / 3
     met = result["passed_by"]

@@ -45,6 +45,15 @@ def measured_hands(joints: Sequence[Landmarks], folder: str) -> list[Landmarks]:
     return sorted(joints, key=lambda points: float(points[:, 1].mean()))[:1]
 
 
+def off_face(joints: Sequence[Landmarks], face: Any) -> list[Landmarks]:
+    """Hands whose middle is not in the face that is seen: of small persons MediaPipe takes the face for a hand."""
+    if face is None:
+        return list(joints)
+    corner = np.array([face.left_px, face.top_px])
+    places = [(points[:, :2].mean(axis=0) - corner) / face.side_px for points in joints]
+    return [points for points, place in zip(joints, places, strict=True) if (place < 0).any() or (place > 1).any()]
+
+
 def _regions(mask: Frame) -> list[NDArray[np.bool_]]:
     cv2 = import_opencv("to separate regions")
     count, labels = cv2.connectedComponents((mask > 0).astype(np.uint8))
@@ -60,13 +69,13 @@ def _shares(frame: Frame, joints: Sequence[Landmarks], max_hands: int, faces: An
 
 
 def _row(
-    folder: str, pictures: str, way: str, shared: Sequence[float], faces: Sequence[bool], without_joints: int
+    folder: str, pictures: str, way: str, shared: Sequence[float], faces: Sequence[bool], others: dict[str, int]
 ) -> dict[str, Any]:
     return {
         "signs": folder,
         "pictures": pictures,
         "way": way,
-        "counts": {"pictures": len(faces), "hands": len(shared), "without joints": without_joints},
+        "counts": {"pictures": len(faces), "hands": len(shared), **others},
         "found_mean": float(np.mean(np.array(shared) >= FOUND)) if shared else None,
         "shared_mean": float(np.mean(shared)) if shared else None,
         "face_mean": float(np.mean(faces)) if faces else None,
@@ -93,6 +102,7 @@ def _measure(
     shared: dict[tuple[str, str], list[float]] = {(part, name): [] for part in parts for name in by_masks}
     seen: dict[str, list[bool]] = {part: [] for part in parts}
     hands: dict[str, list[int]] = {part: [] for part in parts}
+    on_face = dict.fromkeys(parts, 0)
     with LandmarkTracker(each_alone=True, max_hands=2) as tracker:
         for number, path in enumerate(paths):
             progress(f"finding hands in {folder}", number + 1, len(paths))
@@ -100,15 +110,25 @@ def _measure(
                 continue
             frame = read_image(path)
             part = "others" if folder == "hand" and number % _CHOSEN_ON else "chosen on"
-            joints = measured_hands(tracker.find_all(frame), folder)
+            face, all_joints = faces.find(frame), tracker.find_all(frame)
+            there = off_face(all_joints, face)
+            on_face[part] += len(all_joints) - len(there)
+            joints = measured_hands(there, folder)
             hands[part].append(len(joints))
             if joints and by_masks:
-                seen[part].append(faces.find(frame) is not None)
+                seen[part].append(face is not None)
                 for name in by_masks:
                     used = faces if name == "with-face" else "never"
                     shared[part, name] += _shares(frame, joints, max_hands, used)
     rows = [
-        _row(folder, part, name, shared[part, name], seen[part], hands[part].count(0))
+        _row(
+            folder,
+            part,
+            name,
+            shared[part, name],
+            seen[part],
+            {"without joints": hands[part].count(0), "joints on a face": on_face[part]},
+        )
         for part in parts
         for name in by_masks
     ]
