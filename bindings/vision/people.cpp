@@ -42,7 +42,17 @@ void bind_vision_people(py::module_& m) {
             return self.find(picture);
           },
           py::arg("bgr"),
-          "The Face on which most windows agree, or None. bgr: uint8, shape (height, width, 3).");
+          "The Face on which most windows agree, or None. bgr: uint8, shape (height, width, 3).")
+      .def(
+          "find_in_still",
+          [](const hri::FaceFinder& self, const hri_bind::ByteArray& bgr) {
+            const auto picture = hri_bind::as_image(bgr, 3, "picture");
+            const py::gil_scoped_release release;
+            return self.find_in_still(picture);
+          },
+          py::arg("bgr"),
+          "The same of a single picture: where fewer than sure_neighbours windows agree it is "
+          "searched at twice its size, too, for faces that are small.");
   py::class_<hri::PersonHands>(m, "PersonHands", "Finds the hands of a person whose face is seen.")
       .def(py::init<const hri::PersonOptions&>(), py::arg("options") = hri::PersonOptions{})
       .def(

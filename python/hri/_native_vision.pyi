@@ -90,12 +90,14 @@ class FaceFinderOptions:
     ----------
     max_side_px : int, default 640
         larger pictures are scaled down to this first; 32..4096 px
-    min_side : float, default 0.03
+    min_side : float, default 0.025
         side of the smallest face, as a share of the picture's longer side; 0..1
     scale_step : float, default 1.1
         ratio of one size that is tried to the next; 1.01..2
     min_neighbours : int, default 2
         windows that must agree on a face, a pixel or a size apart; 1..100
+    sure_neighbours : int, default 15
+        a single picture in which fewer agree is searched again at twice its size, where small faces stand out; 0: never; 0..1000
     """
 
     __hash__: typing.ClassVar[None] = None
@@ -107,7 +109,13 @@ class FaceFinderOptions:
     def __eq__(self, arg0: typing.Any) -> bool: ...
     def __getstate__(self) -> dict: ...
     def __init__(
-        self, *, max_side_px: int = 640, min_side: float = 0.03, scale_step: float = 1.1, min_neighbours: int = 2
+        self,
+        *,
+        max_side_px: int = 640,
+        min_side: float = 0.025,
+        scale_step: float = 1.1,
+        min_neighbours: int = 2,
+        sure_neighbours: int = 15,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: dict) -> None: ...
@@ -143,6 +151,13 @@ class FaceFinderOptions:
         """
     @scale_step.setter
     def scale_step(self, arg1: typing.Any) -> None: ...
+    @property
+    def sure_neighbours(self) -> int:
+        """
+        a single picture in which fewer agree is searched again at twice its size, where small faces stand out; 0: never
+        """
+    @sure_neighbours.setter
+    def sure_neighbours(self, arg1: typing.Any) -> None: ...
 
 class PersonOptions:
     """
@@ -152,7 +167,7 @@ class PersonOptions:
     ----------
     face_side_px : int, default 32
         pictures with larger faces are scaled down to this first; 8..512 px
-    reach : float, default 4.2
+    reach : float, default 4.8
         distance of a hand's centre from that of the face, at most, in sides of the face; 0.5..10
     signing_reach : float, default 3.2
         where one hand is looked for, one farther away hangs: it is chosen where there is no other; 0.5..10
@@ -182,7 +197,7 @@ class PersonOptions:
         self,
         *,
         face_side_px: int = 32,
-        reach: float = 4.2,
+        reach: float = 4.8,
         signing_reach: float = 3.2,
         min_area: float = 0.06,
         max_area: float = 2.2,
@@ -301,6 +316,10 @@ class FaceFinder:
     def find(self, bgr: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> Face | None:
         """
         The Face on which most windows agree, or None. bgr: uint8, shape (height, width, 3).
+        """
+    def find_in_still(self, bgr: typing.Annotated[numpy.typing.ArrayLike, numpy.uint8]) -> Face | None:
+        """
+        The same of a single picture: where fewer than sure_neighbours windows agree it is searched at twice its size, too, for faces that are small.
         """
 
 class PersonHands:

@@ -157,7 +157,7 @@ def test_the_study_compares_masks_with_joints(tmp_path: Path, monkeypatch: pytes
             return [hand + np.float32(60), taken_for_a_hand, hand] if frame[:10, :10].mean() > 128 else []
 
     class Faces:
-        def find(self, _: Frame) -> Face:
+        def find_in_still(self, _: Frame) -> Face:
             return FACE
 
     def find_hands(frames: list[Frame], max_hands: int, faces: object) -> dict[str, list[object]]:

@@ -147,3 +147,23 @@ def test_landmarks_are_taken_where_they_are_found(hri: Any, tmp_path: Path, monk
     done = hri("train", "gesture", "--data", tmp_path / "data", "--pattern", "{label}/{person}_{take}.png", "--out",
                tmp_path / "m.hri")  # fmt: skip
     assert done.code == 0 and "source: silhouettes, as MediaPipe finds a hand in 0 of 6" in done.err, done.err
+
+
+def test_a_single_picture_is_searched_at_twice_its_size_where_few_windows_agree(tmp_path: Path) -> None:
+    (tmp_path / "any.xml").write_text(CASCADE)
+    frame = np.full((24, 26, 3), 128, np.uint8)
+    frame[10:14, 12:16] = np.random.default_rng(0).integers(0, 255, (4, 4, 3))
+    sides = {}
+    for sure in (0, 1, 1000):
+        options = FaceFinderOptions(min_side=0.05, scale_step=2.0, min_neighbours=1, sure_neighbours=sure)
+        finder = FaceFinder(tmp_path / "any.xml", options)
+        plain, still = finder.find(frame), finder.find_in_still(frame)
+        assert plain is not None and still is not None
+        for face in (plain, still):  # what was found is what stands out of the grey
+            assert abs(face.left_px + face.side_px / 2 - 14) < 5 and abs(face.top_px + face.side_px / 2 - 12) < 5
+        sides[sure] = plain.side_px, still.side_px
+        assert finder.find_in_still(np.full_like(frame, 128)) is None
+    assert sides[0][1] == sides[0][0] and sides[1][1] == sides[1][0], "never, and one window is enough"
+    assert sides[1000][0] == sides[0][0] and sides[1000][1] < sides[0][0], (
+        "windows of twice the picture are half as wide"
+    )

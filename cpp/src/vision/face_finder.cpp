@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <opencv2/imgproc.hpp>
 #include <opencv2/objdetect.hpp>
+#include <optional>
 #include <vector>
 
 #include "hri/core/error.hpp"
@@ -14,9 +16,43 @@
 
 namespace hri {
 
+namespace {
+
+struct Found {
+  Face face;
+  int num_windows = 0;  // that agree
+};
+
+cv::Mat grey_of(ImageView bgr, int max_side_px) {
+  require(!bgr.empty() && bgr.channels == 3,
+          "picture must have three channels and at least one pixel");
+  cv::Mat grey;
+  cv::cvtColor(detail::scaled_down(detail::as_mat(bgr), max_side_px), grey, cv::COLOR_BGR2GRAY);
+  return grey;
+}
+
+}  // namespace
+
 struct FaceFinder::Cascade {
   std::mutex mutex;  // OpenCV keeps its working memory in the classifier
   cv::CascadeClassifier classifier;
+
+  // The best face in a grey picture, in pixels of one that is so many times as wide.
+  std::optional<Found> search(const cv::Mat& grey, const FaceFinderOptions& options, double scale) {
+    const int least =
+        std::max(1, static_cast<int>(options.min_side * std::max(grey.cols, grey.rows)));
+    std::vector<cv::Rect> found;
+    std::vector<int> neighbours;
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      classifier.detectMultiScale(grey, found, neighbours, options.scale_step,
+                                  options.min_neighbours, 0, cv::Size(least, least));
+    }
+    if (found.empty()) return std::nullopt;
+    const auto best = std::max_element(neighbours.begin(), neighbours.end());
+    const cv::Rect& box = found[static_cast<std::size_t>(best - neighbours.begin())];
+    return Found{{box.x * scale, box.y * scale, box.width * scale}, *best};
+  }
 };
 
 FaceFinder::FaceFinder(const std::string& cascade_path, const FaceFinderOptions& options)
@@ -33,25 +69,23 @@ FaceFinder::FaceFinder(const std::string& cascade_path, const FaceFinderOptions&
 }
 
 std::optional<Face> FaceFinder::find(ImageView bgr) const {
-  require(!bgr.empty() && bgr.channels == 3,
-          "picture must have three channels and at least one pixel");
-  const cv::Mat small = detail::scaled_down(detail::as_mat(bgr), options_.max_side_px);
-  cv::Mat grey;
-  cv::cvtColor(small, grey, cv::COLOR_BGR2GRAY);
-  const int least =
-      std::max(1, static_cast<int>(options_.min_side * std::max(small.cols, small.rows)));
-  std::vector<cv::Rect> found;
-  std::vector<int> neighbours;
-  {
-    const std::lock_guard<std::mutex> lock(cascade_->mutex);
-    cascade_->classifier.detectMultiScale(grey, found, neighbours, options_.scale_step,
-                                          options_.min_neighbours, 0, cv::Size(least, least));
+  const cv::Mat grey = grey_of(bgr, options_.max_side_px);
+  const auto found =
+      cascade_->search(grey, options_, bgr.width_px / static_cast<double>(grey.cols));
+  return found ? std::optional<Face>(found->face) : std::nullopt;
+}
+
+std::optional<Face> FaceFinder::find_in_still(ImageView bgr) const {
+  const cv::Mat grey = grey_of(bgr, options_.max_side_px);
+  const double scale = bgr.width_px / static_cast<double>(grey.cols);
+  auto found = cascade_->search(grey, options_, scale);
+  if (options_.sure_neighbours > 0 && (!found || found->num_windows < options_.sure_neighbours)) {
+    // The cascade's window moves by two pixels over small faces: few windows hit one.
+    cv::Mat large;
+    cv::resize(grey, large, {}, 2, 2, cv::INTER_LINEAR);
+    if (const auto small = cascade_->search(large, options_, scale / 2)) found = small;
   }
-  if (found.empty()) return std::nullopt;
-  const auto best = std::max_element(neighbours.begin(), neighbours.end()) - neighbours.begin();
-  const cv::Rect& box = found[static_cast<std::size_t>(best)];
-  const double scale = bgr.width_px / static_cast<double>(small.cols);
-  return Face{box.x * scale, box.y * scale, box.width * scale};
+  return found ? std::optional<Face>(found->face) : std::nullopt;
 }
 
 }  // namespace hri

@@ -19,6 +19,9 @@
 namespace hri {
 namespace {
 
+// Frames from which on a face is searched for as in a stream.
+constexpr std::size_t kStills = 8;
+
 // Lengths are in sides of the face, from its centre.
 constexpr double kMargin = 0.4;      // of the room that is looked at, around what hands reach
 constexpr double kSurePixels = 0.8;  // share of the face's pixels that are skin, not eyes or hair
@@ -340,7 +343,8 @@ std::optional<std::vector<HandObservation>> PersonHands::find(Span<const ImageVi
   if (!alike) return std::nullopt;
   const auto interval = static_cast<std::size_t>(options_.face_interval);
   std::vector<std::optional<Face>> seen;
-  for (std::size_t i = 0; i < clip.size(); i += interval) seen.push_back(faces.find(clip[i]));
+  for (std::size_t i = 0; i < clip.size(); i += interval)
+    seen.push_back(clip.size() < kStills ? faces.find_in_still(clip[i]) : faces.find(clip[i]));
   const auto count = static_cast<std::size_t>(std::count_if(
       seen.begin(), seen.end(), [](const std::optional<Face>& face) { return face.has_value(); }));
   if (count == 0 || 2 * count < seen.size()) return std::nullopt;

@@ -110,7 +110,7 @@ def _measure(
                 continue
             frame = read_image(path)
             part = "others" if folder == "hand" and number % _CHOSEN_ON else "chosen on"
-            face, all_joints = faces.find(frame), tracker.find_all(frame)
+            face, all_joints = faces.find_in_still(frame), tracker.find_all(frame)
             there = off_face(all_joints, face)
             on_face[part] += len(all_joints) - len(there)
             joints = measured_hands(there, folder)

@@ -21,7 +21,7 @@ namespace hri {
 
 struct HRI_API PersonOptions {
   int face_side_px = 32;
-  double reach = 4.2;
+  double reach = 4.8;
   double signing_reach = 3.2;
   double min_area = 0.06;
   double max_area = 2.2;
