@@ -168,7 +168,9 @@ class Editor {
     std::int64_t num_values = 0;
     for (const auto& [name, line] : detail::parse_model_list(detail::read_text(list), list)) {
       const auto refuse_name = [&list, number = line](const std::string& why) {
-        fail(ErrorKind::format, list + ": line " + std::to_string(number) + ": " + why);
+        std::string text = list;
+        text.append(": line ").append(std::to_string(number)).append(": ").append(why);
+        fail(ErrorKind::format, text);
       };
       if (!names.insert(name).second) refuse_name("'" + name + "' stands here again");
       auto found = known.find(name);
