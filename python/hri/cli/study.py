@@ -150,7 +150,7 @@ def _summary(result: dict[str, object], indent: str = "") -> list[str]:
         lines.append(f"{indent}16 bits\t{100 * float(str(result['same_decision_16_bit'])):.2f} % of decisions the same")
     if "difference_to_hmm" in result:
         lines.append(f"{indent}difference\t{100 * float(str(result['difference_to_hmm'])):+.2f} points to the HMM")
-    if "median" in result:
+    if {"median", "95 %", "most"} <= result.keys():
         lines.append(f"{indent}median\t{result['median']:.4g}, 95 % {result['95 %']:.4g}, most {result['most']:.4g}")
     if "substitutions" in result:
         counted = ("substitutions", "deletions", "insertions")

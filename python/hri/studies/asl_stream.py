@@ -113,7 +113,7 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
         "partial_ms": {
             "count": len(counts.partial_ms),
             "median": float(np.median(counts.partial_ms)),
-            "p95": float(np.percentile(counts.partial_ms, 95)),
+            "95 %": float(np.percentile(counts.partial_ms, 95)),
             "most": float(np.max(counts.partial_ms)),
         },
         "passed": bool(np.mean(counts.same) >= MIN_SAME and np.percentile(counts.partial_ms, 95) <= PARTIAL_MS),
