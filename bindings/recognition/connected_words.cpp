@@ -123,6 +123,11 @@ void bind_connected_words(py::module_& m) {
             return self.score(samples, sample_rate_hz);
           },
           py::arg("audio"), py::arg("sample_rate_hz"))
+      .def(
+          "align",
+          [](const hri::ConnectedWordRecognizer& self, const hri::ScoredRecording& recording,
+             const std::vector<std::string>& words) { return self.align(recording, words); },
+          py::arg("recording"), py::arg("words"), py::call_guard<py::gil_scoped_release>())
       .def("lattice", &hri::ConnectedWordRecognizer::lattice, py::arg("recording"),
            py::arg("num_words") = 0, py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("labels", &hri::ConnectedWordRecognizer::labels)

@@ -112,6 +112,10 @@ WordNetwork ConnectedWordRecognizer::network(int num_words) const {
                              options_.unknown_words ? unknown_word() : WordNetwork::kNull);
   }
   if (language_ != nullptr) return WordNetwork::bigram(*language_, labels_, silence());
+  return any_words();
+}
+
+WordNetwork ConnectedWordRecognizer::any_words() const {
   std::vector<int> words(labels_.size());
   std::iota(words.begin(), words.end(), 0);
   if (options_.unknown_words) words.push_back(unknown_word());

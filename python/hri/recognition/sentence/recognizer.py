@@ -93,7 +93,7 @@ class Transcript:
         Natural log, of the best path; 0 without speech.
     complete : bool
         False where the recording was too short for so many words as were asked for, or no sentence of the grammar fits:
-        the words are then those of the best beginning of a sentence.
+        the words are then those of the best beginning of a sentence. Of `align` also without speech.
     notes : tuple of str
         What was converted or assumed on the way.
     alternatives : tuple of Alternative
@@ -350,6 +350,39 @@ class ConnectedWordRecognizer(Recognizer):
         with naming_file(clip.path):
             found = words.recognise(clip.samples, clip.sample_rate_hz, num_words or 0, num_alternatives)
         return transcript_of(found, clip.notes)
+
+    def align(self, audio: AudioInput, sample_rate_hz: int | None = None, *, words: Sequence[str]) -> Transcript:
+        """When each of the words that are known to be in a recording was spoken: forced alignment.
+
+        Pauses may lie before, between and after the words. Language model and grammar have no say.
+
+        Parameters
+        ----------
+        audio, sample_rate_hz
+            As `recognise` takes them.
+        words : sequence of str
+            What was said, in its order: labels, and with ``unknown_words`` also ``<unk>`` for any sound.
+
+        Returns
+        -------
+        Transcript
+            Of these words, with their times as `recognise` gives them. ``confidence`` is what the word has among all
+            sentences of words in any order: near 0 where another word was said. It marks no word ``unknown``. Not
+            ``complete`` without speech, and where the recording is too short for so many words: the words are then
+            those of the best beginning.
+
+        Raises
+        ------
+        InvalidArgument, FormatError, IoError
+            As `recognise` does; InvalidArgument for no word, more than 1000, and one that is no label, which it names.
+        """
+        if isinstance(words, str):
+            raise InvalidArgument(f"words must be a sequence of words, got a text: write {words.split()!r}")
+        clip = as_audio(audio, sample_rate_hz)
+        model = self._trained
+        with naming_file(clip.path):
+            scored = model.score(clip.samples, clip.sample_rate_hz)
+        return transcript_of(model.align(scored, as_texts(words, "words")), clip.notes)
 
     def lattice(
         self, audio: AudioInput, sample_rate_hz: int | None = None, *, num_words: int | None = None

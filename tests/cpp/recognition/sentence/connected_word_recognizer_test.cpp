@@ -126,6 +126,69 @@ TEST(ConnectedWordRecognizer, FindsSoManyWordsAsThereAre) {
   EXPECT_FALSE(too_many.complete);
 }
 
+TEST(ConnectedWordRecognizer, AlignsTheWordsItWouldFindAsItFindsThem) {
+  const Grammar other =
+      Grammar::parse("#JSGF V1.0;\ngrammar g;\npublic <s> = fall fall fall;", "g.jsgf");
+  for (const double pause_s : {0.0, 0.3}) {
+    const ScoredRecording recording = trained().score(sentence(kWords, pause_s), kRateHz);
+    const Transcript found = trained().recognise(recording);
+    ASSERT_EQ(labels_of(found), kWords) << found.text();
+    // What it holds has no say.
+    const Transcript same = trained().with_grammar(other).align(recording, kWords);
+    EXPECT_TRUE(same.complete);
+    EXPECT_EQ(same.log_score, found.log_score);
+    ASSERT_EQ(labels_of(same), kWords);
+    for (std::size_t i = 0; i < kWords.size(); ++i) {
+      EXPECT_EQ(same.words[i].first_s, found.words[i].first_s);
+      EXPECT_EQ(same.words[i].last_s, found.words[i].last_s);
+      EXPECT_EQ(same.words[i].log_score, found.words[i].log_score);
+      EXPECT_EQ(same.words[i].confidence, found.words[i].confidence);
+    }
+  }
+}
+
+TEST(ConnectedWordRecognizer, AlignsWordsThatWereNotSaidAndIsNotSureOfThem) {
+  ConnectedWordRecognizerOptions options = small_options();
+  options.min_confidence = 0.5;
+  const auto recognizer = ConnectedWordRecognizer::train(clips().samples, options);
+  const std::vector<std::string> wrong{"rise", "rise", "fall", "rise", "rise"};
+  const Transcript transcript = recognizer.align(sentence(kWords, 0.1), kRateHz, wrong);
+  EXPECT_TRUE(transcript.complete);
+  ASSERT_EQ(labels_of(transcript), wrong);
+  EXPECT_LT(*transcript.words[1].confidence, 0.5);
+  EXPECT_GT(*transcript.words[2].confidence, 0.5);
+  for (const TranscribedWord& word : transcript.words) EXPECT_FALSE(word.unknown);
+  const Transcript unasked = recognizer.align(sentence(kWords, 0.1), kRateHz, wrong, false);
+  EXPECT_EQ(unasked.log_score, transcript.log_score);
+  EXPECT_FALSE(unasked.words[1].confidence.has_value());
+}
+
+TEST(ConnectedWordRecognizer, AlignsNoMoreWordsThanARecordingHasRoomFor) {
+  const std::vector<float> audio = sentence({"rise"}, 0.1);
+  const Transcript short_of =
+      trained().align(audio, kRateHz, std::vector<std::string>(100, "rise"));
+  EXPECT_FALSE(short_of.complete);
+  EXPECT_LT(short_of.words.size(), 100U);
+  const Transcript silent = trained().align(std::vector<float>(kRateHz, 0.0F), kRateHz, {"rise"});
+  EXPECT_FALSE(silent.complete);
+  EXPECT_TRUE(silent.words.empty());
+}
+
+TEST(ConnectedWordRecognizer, RefusesToAlignWhatIsNoWord) {
+  const ScoredRecording recording = trained().score(sentence(kWords, 0.1), kRateHz);
+  EXPECT_THROW((void)trained().align(recording, {}), InvalidArgument);
+  EXPECT_THROW((void)trained().align(recording, std::vector<std::string>(1001, "rise")),
+               InvalidArgument);
+  EXPECT_THROW((void)trained().align(recording, {"rise", TranscribedWord::kUnknown}),
+               InvalidArgument);
+  try {
+    (void)trained().align(recording, {"rise", "sink"});
+    FAIL();
+  } catch (const InvalidArgument& error) {
+    EXPECT_STREQ(error.what(), "words: there is no word 'sink'; the words are fall rise");
+  }
+}
+
 TEST(ConnectedWordRecognizer, IsSureOfClearWordsAndKnowsOtherSentences) {
   const Transcript found = trained().recognise(sentence(kWords, 0.1), kRateHz, {0, 3});
   ASSERT_EQ(labels_of(found), kWords);
@@ -185,6 +248,9 @@ TEST(ConnectedWordRecognizer, MarksSoundsThatAreNoWord) {
   audio.insert(audio.end(), after.begin(), after.end());
   const Transcript found = rejecting.recognise(audio, kRateHz);
   EXPECT_EQ(labels_of(found), (std::vector<std::string>{"rise", "<unk>", "fall"})) << found.text();
+  const Transcript aligned = rejecting.align(audio, kRateHz, labels_of(found));
+  EXPECT_EQ(aligned.text(), found.text());
+  EXPECT_EQ(aligned.log_score, found.log_score);
   const Transcript without = trained().recognise(audio, kRateHz);
   for (const TranscribedWord& word : without.words) EXPECT_FALSE(word.unknown);
   const std::vector<std::uint8_t> bytes = rejecting.to_model_file().serialise();
@@ -300,7 +366,11 @@ TEST(ConnectedWordRecognizer, DecodesByPossibilities) {
   options.words.num_codewords = 32;
   const auto possibilistic = ConnectedWordRecognizer::train(clips().samples, options);
   const std::vector<float> audio = sentence(kWords, 0.1);
-  EXPECT_EQ(labels_of(possibilistic.recognise(audio, kRateHz)), kWords);
+  const Transcript found = possibilistic.recognise(audio, kRateHz);
+  EXPECT_EQ(labels_of(found), kWords);
+  const Transcript aligned = possibilistic.align(audio, kRateHz, kWords);
+  EXPECT_EQ(aligned.log_score, found.log_score);
+  EXPECT_EQ(aligned.words[2].first_s, found.words[2].first_s);
   const ScoredRecording scored = possibilistic.score(audio, kRateHz);
   // In every column the state that fits best has possibility 1; columns join by the product.
   EXPECT_LE(scored.log_emissions.maxCoeff(), 0);

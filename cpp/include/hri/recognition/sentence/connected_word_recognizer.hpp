@@ -195,6 +195,21 @@ class HRI_API ConnectedWordRecognizer {
   /// Throws InvalidArgument for scores of another recogniser.
   [[nodiscard]] Transcript recognise(const ScoredRecording& recording,
                                      const TranscriptionQuery& query = {}) const;
+  /// Forced alignment: the given words in their order, and when each was spoken. Silence may stand
+  /// before, between and after them; language model and grammar have no say, and nothing is pruned.
+  /// TranscribedWord::kUnknown is a word like others with options().unknown_words. Confidences are
+  /// those that the words have among all sentences of words in any order, near 0 where another word
+  /// was said; none of the words is marked unknown for it. Not complete without speech, and where
+  /// there are too few frames for so many words: these are then those of the best beginning. Throws
+  /// InvalidArgument as recognise() does, for no word, more than 1000, and one that there is not,
+  /// which it names.
+  [[nodiscard]] Transcript align(Span<const float> audio, int sample_rate_hz,
+                                 const std::vector<std::string>& words,
+                                 bool confidences = true) const;
+  /// Throws InvalidArgument for scores of another recogniser, too.
+  [[nodiscard]] Transcript align(const ScoredRecording& recording,
+                                 const std::vector<std::string>& words,
+                                 bool confidences = true) const;
   /// Of a recording that goes on: the best beginning of a sentence, without confidences; its first
   /// `num_decided` words are on every path that is left.
   [[nodiscard]] Transcript recognise_begun(const ScoredRecording& recording,
@@ -229,6 +244,10 @@ class HRI_API ConnectedWordRecognizer {
   [[nodiscard]] ScoredRecording score_models(Span<const float> audio, int sample_rate_hz,
                                              MatrixF* fillers) const;
   [[nodiscard]] WordNetwork network(int num_words) const;
+  // Any number of words in any order.
+  [[nodiscard]] WordNetwork any_words() const;
+  // Its number among chains(). Throws InvalidArgument for a word that there is not.
+  [[nodiscard]] int model_of(const std::string& word) const;
   [[nodiscard]] std::vector<TranscribedWord> words_of(const std::vector<DecodedWord>& decoded,
                                                       const ScoredRecording& recording) const;
   [[nodiscard]] Slots slots_of(const std::vector<TranscribedWord>& words) const;
