@@ -14,15 +14,13 @@ from hri.cli.messages import note
 from hri.cli.output import say_table, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import load_dataset, naming_options, parse_options, refuse_chosen
+from hri.cli.transcripts import NamedRecordings, read_said
 from hri.core.errors import FormatError, InvalidArgument
-from hri.core.files import read_text, split_lines
 from hri.datasets import Dataset
-from hri.htk import MasterLabelFile
 from hri.language import WordErrors, count_word_errors
-from hri.media import AUDIO_SUFFIXES, read_audio
+from hri.media import read_audio
 from hri.recognition import ConnectedWordRecognizer
 
-_MASTER = "#!MLF!#"
 _OTHERS = "others"
 """Held out of nothing: recordings whose name has no person of the training data in it."""
 
@@ -80,44 +78,17 @@ def read_strings(path: str, persons: Sequence[str]) -> list[SpokenString]:
     FormatError
         For a line of another form, and a name that belongs to no recording, or to several.
     """
-    text = read_text(path)
-    if text.startswith(_MASTER):
-        master = MasterLabelFile.parse(text, path)
-        said = [(name, [label.name for label in labels.labels]) for name, labels in master.entries]
-    else:
-        said = _lines_of(text, path)
     root = Path(path).parent
-    sounds: dict[str, list[Path]] = {}
-    for sound in sorted(root.rglob("*")):
-        if sound.suffix.lower() in AUDIO_SUFFIXES:
-            sounds.setdefault(sound.stem, []).append(sound)
+    sounds = NamedRecordings.below(root)
     strings = []
-    for name, words in said:
-        folder = [part for part in Path(name).parent.parts if part != "*"]
-        found = [
-            sound
-            for sound in sounds.get(Path(name).stem, sounds.get(Path(name).name, []))
-            if not folder or list(sound.parent.parts[-len(folder) :]) == folder
-        ]
-        if len(found) != 1:
-            raise FormatError(f"{path}: {name!r} is the name of {len(found)} recordings in {root}, not of one")
-        parts = {part for piece in found[0].relative_to(root).parts for part in re.split(r"[_.-]", piece)}
+    for said in read_said(path):
+        found = sounds.one_of(said, root)
+        parts = {part for piece in found.relative_to(root).parts for part in re.split(r"[_.-]", piece)}
         speakers = [person for person in persons if person in parts]
-        strings.append(SpokenString(found[0], words, speakers[0] if len(speakers) == 1 else ""))
+        strings.append(SpokenString(found, said.words, speakers[0] if len(speakers) == 1 else ""))
     if not any(string.words for string in strings):
         raise FormatError(f"{path}: no recording has a word")
     return strings
-
-
-def _lines_of(text: str, path: str) -> list[tuple[str, list[str]]]:
-    said = []
-    for row, line in enumerate(split_lines(text), 1):
-        match = re.fullmatch(r"(.*)\(([^()\s]+)\)\s*", line)
-        if match is None and line.strip():
-            raise FormatError(f"{path}: row {row}: is not words and the name of their recording in brackets")
-        if match is not None:
-            said.append((match[2], match[1].split()))
-    return said
 
 
 def _tell_of_words(strings: Sequence[SpokenString], dataset: Dataset, path: str) -> None:

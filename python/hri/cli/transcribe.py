@@ -6,8 +6,6 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,11 +15,12 @@ import click
 from hri.cli.connected import LANGUAGE_SCALE, connected_model, language_scale_option, load_language
 from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.live_screen import device_option, microphone, recording, stall_option
-from hri.cli.messages import note, report_fault
+from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json, write_text
-from hri.core.errors import Error, InvalidArgument
+from hri.cli.transcripts import EXIT_BAD_DATA, labels_of, lines_of_words, noting_faults, require_names_apart
+from hri.core.errors import InvalidArgument
 from hri.core.files import make_folder
-from hri.htk import Label, MasterLabelFile, Transcription, WordLattice
+from hri.htk import MasterLabelFile, Transcription, WordLattice
 from hri.language import Grammar
 from hri.live import AudioSource
 from hri.media import VIDEO_SUFFIXES
@@ -30,8 +29,6 @@ from hri.recognition.sentence.recognizer import UNKNOWN
 
 SILENCE = "<sil>"
 """The word of silence in lattices."""
-HTK_UNITS_PER_S = 1e7
-EXIT_BAD_DATA = 3
 _SEARCH = ("grammar", "language", "no_grammar", "no_language")
 """Parameters that say which sentences there are: one of them at most."""
 
@@ -148,9 +145,9 @@ def transcribe(
             others = tuple(other for other in _SEARCH if other != name)
             refuse_given(others, f"and --{name.replace('_', '-')} exclude each other")
     if lattices is not None:
-        _require_names_apart([_lattice_path(file, lattices) for file in files], files, "--lattices")
+        require_names_apart([_lattice_path(file, lattices) for file in files], files, "--lattices")
     if mlf is not None:
-        _require_names_apart([_label_path(file) for file in files], files, "--mlf")
+        require_names_apart([_label_path(file) for file in files], files, "--mlf")
     recognizer = ConnectedWordRecognizer.load(connected_model() if model is None else model)
     _choose_sentences(recognizer, grammar, language, language_scale, no_grammar, no_language)
     if stream:
@@ -164,19 +161,19 @@ def transcribe(
     labels: list[tuple[str, Transcription]] = []
     for file in files:
         found[file] = {}
-        with _noting_faults(found[file]):
+        with noting_faults(found[file]):
             transcript = _checked(
                 recognizer.recognise(file, num_words=words, num_alternatives=alternatives), recognizer, words
             )
             found[file] |= transcript.to_dict()
         if "error" in found[file]:
             continue
-        labels.append((str(_label_path(file)), _labels_of(transcript)))
+        labels.append((str(_label_path(file)), labels_of(transcript)))
         for line in _lines(transcript, times, alternatives > 0):
             say(f"{file}\t{line}" if len(files) > 1 else line, json_path)
         for text in transcript.notes:
             note(f"{file}: {text}")
-        with _noting_faults(found[file]):
+        with noting_faults(found[file]):
             if lattices is not None:
                 _write_lattice(recognizer, file, words, _lattice_path(file, lattices))
             if film is not None:
@@ -186,15 +183,6 @@ def transcribe(
         write_text(mlf, MasterLabelFile(labels).to_text())
     if any("error" in entry for entry in found.values()):
         sys.exit(EXIT_BAD_DATA)
-
-
-def _require_names_apart(paths: Sequence[Path], files: Sequence[str], option: str) -> None:
-    """Refuse recordings whose results would stand under one name."""
-    first: dict[Path, str] = {}
-    for path, file in zip(paths, files, strict=True):
-        if path in first:
-            raise click.UsageError(f"{option}: the results of {first[path]} and {file} would both be {path}")
-        first[path] = file
 
 
 def _lattice_path(file: str, folder: Path) -> Path:
@@ -244,16 +232,6 @@ def _choose_sentences(
         recognizer.set_decoder(language_scale=scale)
 
 
-@contextmanager
-def _noting_faults(entry: dict[str, Any]) -> Iterator[None]:
-    """Say what is wrong with one recording, and keep it with its results, so that the others are not lost."""
-    try:
-        yield
-    except (Error, OSError) as error:
-        entry["error"] = str(error)
-        report_fault(error)
-
-
 def _checked(transcript: Transcript, recognizer: ConnectedWordRecognizer, num_words: int | None) -> Transcript:
     """With a note where it is no whole sentence; words that begin a sentence of a grammar, and end none, are none."""
     if transcript.complete:
@@ -268,19 +246,10 @@ def _checked(transcript: Transcript, recognizer: ConnectedWordRecognizer, num_wo
 def _lines(transcript: Transcript, times: bool, alternatives: bool) -> list[str]:
     """What is printed of a recording."""
     if times:
-        return [f"{word.first_s:.3f}\t{word.last_s:.3f}\t{word.label}" for word in transcript.words]
+        return lines_of_words(transcript)
     if alternatives:
         return [f"{other.log_score:.1f}\t{other.text}" for other in transcript.alternatives]
     return [transcript.text + "".join(f"\t{slot}={value}" for slot, value in transcript.slots.items())]
-
-
-def _labels_of(transcript: Transcript) -> Transcription:
-    return Transcription(
-        [
-            Label(label, round(word.first_s * HTK_UNITS_PER_S), round(word.last_s * HTK_UNITS_PER_S), word.log_score)
-            for label, word in zip(transcript.labels, transcript.words, strict=True)
-        ]
-    )
 
 
 def _follow(recognizer: ConnectedWordRecognizer, source: AudioSource, wake: str, times: bool, prefix: str) -> None:
