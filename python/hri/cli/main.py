@@ -53,6 +53,7 @@ COMMANDS = {
     "add-gesture": ("hri.cli.vocabulary:add_gesture", "Add a gesture to a trained recogniser, from few clips."),
     "recognise": ("hri.cli.recognise:recognise", "Recognise a word, a sign or both, and let the robot answer."),
     "transcribe": ("hri.cli.transcribe:transcribe", "Recognise several words in one recording, with their times."),
+    "align": ("hri.cli.align:align", "Find when words that are known were spoken in a recording."),
     "read-sentences": ("hri.cli.sentences:read_sentences", "Recognise signed sentences in tracks of both hands."),
     "split": ("hri.cli.split:split", "Split a film of signs into gestures where the hand stands still."),
     "listen": ("hri.cli.listen:listen", "Recognise words as they are spoken, from a microphone or a recording."),
