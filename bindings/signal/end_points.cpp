@@ -9,7 +9,7 @@
 #include "core/options.hpp"
 #include "hri/signal/activity.hpp"
 #include "hri/signal/activity_meter.hpp"
-#include "hri/signal/endpointer.hpp"
+#include "hri/signal/stream/endpointer.hpp"
 
 namespace py = pybind11;
 using hri_bind::as_span;

@@ -8,8 +8,8 @@
 #include "core/arrays.hpp"
 #include "core/options.hpp"
 #include "hri/signal/shrinkage.hpp"
+#include "hri/signal/stream/wavelet_stream.hpp"
 #include "hri/signal/wavelet_packets.hpp"
-#include "hri/signal/wavelet_stream.hpp"
 
 namespace py = pybind11;
 using hri_bind::as_matrix;

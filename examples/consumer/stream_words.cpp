@@ -7,7 +7,7 @@
 #include <hri/core/error.hpp>
 #include <hri/io/wav.hpp>
 #include <hri/recognition/word/word_recognizer.hpp>
-#include <hri/signal/endpointer.hpp>
+#include <hri/signal/stream/endpointer.hpp>
 
 namespace {
 

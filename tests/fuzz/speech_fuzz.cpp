@@ -9,8 +9,8 @@
 #include "hri/features/speech/cepstra.hpp"
 #include "hri/features/speech/cepstra_stream.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
-#include "hri/signal/endpointer.hpp"
 #include "hri/signal/shrinkage.hpp"
+#include "hri/signal/stream/endpointer.hpp"
 
 namespace {
 

@@ -144,6 +144,6 @@ STUDIES = (
         "within 150 ms",
         _run,
         Layout(x="snr_db", panel="noise", measure="end_95_ms", percent=False),
-        sources=("cpp/signal",),
+        sources=("cpp/signal", "cpp/signal/stream"),
     ),
 )

@@ -238,7 +238,7 @@ STUDIES = (
         _run,
         Layout(measure="same"),
         {"input": tuple(INPUTS)},
-        sources=(*dict.fromkeys((*WORD_SOURCES, *GESTURE_SOURCES)),),
+        sources=(*dict.fromkeys((*WORD_SOURCES, "cpp/signal/stream", *GESTURE_SOURCES)),),
         folds=True,
     ),
 )

@@ -374,7 +374,7 @@ STUDIES = (
         Layout(measure="words_per_hour", percent=False),
         {"vocabulary": tuple(OTHER_WORDS)},
         thins=True,
-        sources=WORD_SOURCES,
+        sources=(*WORD_SOURCES, "cpp/signal/stream"),
     ),
     Study(
         "false-alarms-both",
@@ -386,6 +386,6 @@ STUDIES = (
         Layout(measure="words_per_hour", percent=False),
         {"vocabulary": tuple(OTHER_WORDS)},
         thins=True,
-        sources=WORD_SOURCES,
+        sources=(*WORD_SOURCES, "cpp/signal/stream"),
     ),
 )

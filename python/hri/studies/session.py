@@ -199,7 +199,7 @@ STUDIES = (
         "of the turns taken apart or joined wrongly",
         _run,
         Layout(),
-        sources=(*dict.fromkeys((*WORD_SOURCES, *GESTURE_SOURCES)),),
+        sources=(*dict.fromkeys((*WORD_SOURCES, "cpp/signal/stream", *GESTURE_SOURCES)),),
         folds=True,
     ),
 )

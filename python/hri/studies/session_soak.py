@@ -92,6 +92,7 @@ STUDIES = (
             *dict.fromkeys(
                 (
                     *WORD_SOURCES,
+                    "cpp/signal/stream",
                     *GESTURE_SOURCES,
                 )
             ),

@@ -180,7 +180,7 @@ STUDIES = (
         f"{MAX_COMPUTE_MS:.0f} ms of computing (median)",
         _run,
         Layout(),
-        sources=WORD_SOURCES,
+        sources=(*WORD_SOURCES, "cpp/signal/stream"),
         folds=True,
     ),
 )

@@ -110,7 +110,7 @@ STUDIES = (
         _run,
         Layout(measure="stops", percent=False),
         axes={"front_end": tuple(FRONT_ENDS)},
-        sources=WORD_SOURCES,
+        sources=(*WORD_SOURCES, "cpp/signal/stream"),
         folds=True,
         quick={"front_end": ("cepstra",)},
     ),

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Listening allocates nothing, neither in silence nor when words begin and end.
-#include "hri/signal/endpointer.hpp"
+#include "hri/signal/stream/endpointer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "allocations/allocation_counter.hpp"
 #include "hri/signal/dwt.hpp"
 #include "hri/signal/dwt2.hpp"
-#include "hri/signal/wavelet_stream.hpp"
+#include "hri/signal/stream/wavelet_stream.hpp"
 
 namespace hri {
 namespace {

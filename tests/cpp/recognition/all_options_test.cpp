@@ -41,9 +41,9 @@
 #include "hri/recognition/subword/subword_recognizer.hpp"
 #include "hri/recognition/word/speaker_adapter.hpp"
 #include "hri/recognition/word/speech_embedding.hpp"
-#include "hri/signal/endpointer.hpp"
 #include "hri/signal/shrinkage.hpp"
-#include "hri/signal/wavelet_stream.hpp"
+#include "hri/signal/stream/endpointer.hpp"
+#include "hri/signal/stream/wavelet_stream.hpp"
 #include "option_checks.hpp"
 
 namespace hri {

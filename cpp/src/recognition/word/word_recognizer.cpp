@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "hri/core/error.hpp"
-#include "hri/signal/endpointer.hpp"
+#include "hri/signal/stream/endpointer.hpp"
 
 namespace hri {
 

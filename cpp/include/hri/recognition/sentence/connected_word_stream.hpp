@@ -14,7 +14,7 @@
 #include "hri/core/options.hpp"
 #include "hri/core/types.hpp"
 #include "hri/recognition/sentence/connected_word_recognizer.hpp"
-#include "hri/signal/endpointer.hpp"
+#include "hri/signal/stream/endpointer.hpp"
 
 namespace hri {
 

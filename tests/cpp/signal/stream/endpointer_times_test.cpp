@@ -12,7 +12,7 @@
 
 #include "hri/core/random.hpp"
 #include "hri/signal/activity_meter.hpp"
-#include "hri/signal/endpointer.hpp"
+#include "hri/signal/stream/endpointer.hpp"
 #include "signal/word_bounds.hpp"
 
 namespace hri {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "hri/signal/wavelet_stream.hpp"
+#include "hri/signal/stream/wavelet_stream.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "hri/signal/endpointer.hpp"
+#include "hri/signal/stream/endpointer.hpp"
 
 #include <algorithm>
 #include <cmath>
