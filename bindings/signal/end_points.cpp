@@ -91,7 +91,8 @@ void bind_end_point_streams(py::module_& m) {
   py::class_<hri::Endpoint>(m, "Endpoint",
                             "An event; positions are samples since the stream began.")
       .def_readonly("kind", &hri::Endpoint::kind,
-                    "Which event: 'none', 'speech_start', 'speech_end' or 'speech_dropped'.")
+                    "Which event: 'none', 'speech_start', 'speech_pause', 'speech_end' or "
+                    "'speech_dropped'.")
       .def_readonly("at", &hri::Endpoint::at, "Samples processed when this was decided.")
       .def_readonly("first", &hri::Endpoint::first, "First sample of the utterance.")
       .def_readonly("last", &hri::Endpoint::last, "The sample behind its last.")

@@ -723,6 +723,8 @@ class EndpointerOptions:
         how speech is found
     hangover_ms : float, default 300.0
         silence that ends an utterance; 50..5000 ms
+    pause_ms : float, default 0.0
+        silence in an utterance after which what was said so far is told, as if it ended there; 0: never, as where that is not shorter than hangover_ms; 0..5000 ms
     context_ms : float, default 300.0
         noise kept from before an utterance, to estimate its level; 50..5000 ms
     max_utterance_ms : float, default 5000.0
@@ -742,6 +744,7 @@ class EndpointerOptions:
         *,
         activity: ActivityOptions | collections.abc.Mapping[str, typing.Any] = ...,
         hangover_ms: float = 300.0,
+        pause_ms: float = 0.0,
         context_ms: float = 300.0,
         max_utterance_ms: float = 5000.0,
     ) -> None: ...
@@ -779,6 +782,13 @@ class EndpointerOptions:
         """
     @max_utterance_ms.setter
     def max_utterance_ms(self, arg1: typing.Any) -> None: ...
+    @property
+    def pause_ms(self) -> float:
+        """
+        silence in an utterance after which what was said so far is told, as if it ended there; 0: never, as where that is not shorter than hangover_ms
+        """
+    @pause_ms.setter
+    def pause_ms(self, arg1: typing.Any) -> None: ...
 
 class Endpoint:
     """
@@ -800,9 +810,9 @@ class Endpoint:
         First sample of the utterance.
         """
     @property
-    def kind(self) -> typing.Literal["none", "speech_start", "speech_end", "speech_dropped"]:
+    def kind(self) -> typing.Literal["none", "speech_start", "speech_end", "speech_dropped", "speech_pause"]:
         """
-        Which event: 'none', 'speech_start', 'speech_end' or 'speech_dropped'.
+        Which event: 'none', 'speech_start', 'speech_pause', 'speech_end' or 'speech_dropped'.
         """
     @property
     def last(self) -> int:

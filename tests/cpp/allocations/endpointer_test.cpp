@@ -24,14 +24,18 @@ TEST(Endpointer, AllocatesNothingWhileItHears) {
     audio[n] = static_cast<float>(0.01 * random.normal() +
                                   (sounds ? 0.5 * std::sin(0.1 * static_cast<double>(n)) : 0.0));
   }
-  Endpointer endpointer(16000, {});
+  EndpointerOptions options;
+  options.pause_ms = 80;
+  Endpointer endpointer(16000, options);
   int num_ends = 0;
+  int num_pauses = 0;
   EXPECT_EQ(allocations_of([&] {
               Span<const float> rest = audio;
               while (!rest.empty()) {
                 Endpoint event;
                 const std::size_t used = endpointer.consume(rest, &event);
                 num_ends += event.kind == EndpointKind::speech_end ? 1 : 0;
+                num_pauses += event.kind == EndpointKind::speech_pause ? 1 : 0;
                 rest = rest.subspan(used, rest.size() - used);
               }
               while (endpointer.finish().kind != EndpointKind::none) {
@@ -39,6 +43,7 @@ TEST(Endpointer, AllocatesNothingWhileItHears) {
             }),
             0);
   EXPECT_EQ(num_ends, 10);
+  EXPECT_EQ(num_pauses, 10);
 }
 
 }  // namespace

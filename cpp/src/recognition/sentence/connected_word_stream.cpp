@@ -67,7 +67,7 @@ std::vector<ConnectedWordResult> ConnectedWordStream::finish() {
 }
 
 void ConnectedWordStream::handle(const Endpoint& event, std::vector<ConnectedWordResult>* results) {
-  if (event.kind == EndpointKind::none) return;
+  if (event.kind == EndpointKind::none || event.kind == EndpointKind::speech_pause) return;
   in_speech_ = event.kind == EndpointKind::speech_start;
   last_decided_.clear();
   stable_.clear();

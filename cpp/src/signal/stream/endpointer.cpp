@@ -35,6 +35,7 @@ class Endpointer::Stream {
         meter_(sample_rate_hz, options.activity),
         finder_(meter_, options_.activity) {
     hangover_ = frames_in(options.hangover_ms);
+    if (options.pause_ms > 0) pause_ = frames_in(options.pause_ms);
     context_ = frames_in(options.context_ms);
     longest_ = frames_in(options.max_utterance_ms);
     capacity_ = context_ + longest_ + hangover_;
@@ -129,6 +130,11 @@ class Endpointer::Stream {
       }
     } else if (quiet_ >= hangover_ || num_frames_ - onset_ >= longest_) {
       end(event, quiet_ < hangover_);
+    } else if (pause_ > 0 && quiet_ == pause_) {  // once, however long it lasts
+      const Endpoint so_far = judge(begin());
+      if (so_far.kind != EndpointKind::speech_end) return;
+      *event = so_far;
+      event->kind = EndpointKind::speech_pause;
     }
   }
 
@@ -180,9 +186,14 @@ class Endpointer::Stream {
     return event;
   }
 
-  void end(Endpoint* event, bool cut) {
+  // The frame where the utterance and the noise before it begin.
+  std::size_t begin() const {
     const std::size_t earliest = std::max(oldest(), reported_);
-    *event = judge(onset_ > earliest + context_ ? onset_ - context_ : earliest);
+    return onset_ > earliest + context_ ? onset_ - context_ : earliest;
+  }
+
+  void end(Endpoint* event, bool cut) {
+    *event = judge(begin());
     event->cut = cut;
     // The silence after this utterance is also the silence before the next one. Where frames are
     // shorter than their shift, the last one ends before the next begins.
@@ -207,6 +218,7 @@ class Endpointer::Stream {
   ActivityMeter meter_;
   detail::WordFinder finder_;
   std::size_t hangover_ = 0;
+  std::size_t pause_ = 0;
   std::size_t context_ = 0;
   std::size_t longest_ = 0;
   std::size_t capacity_ = 0;

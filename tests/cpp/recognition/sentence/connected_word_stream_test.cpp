@@ -186,6 +186,22 @@ TEST(ConnectedWordStream, DoesNotDependOnBlocks) {
   }
 }
 
+TEST(ConnectedWordStream, GoesOnThroughPausesThatItIsToldOf) {
+  const std::vector<float> audio = two_utterances();
+  ConnectedWordStream plain(trained_by_digits(), kRateHz);
+  const auto expected = results_of(&plain, audio, 1600);
+  ConnectedWordStreamOptions options;
+  options.endpointer.pause_ms = 50;
+  ConnectedWordStream stream(trained_by_digits(), kRateHz, options);
+  const auto found = results_of(&stream, audio, 1600);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].is_final, expected[i].is_final);
+    EXPECT_EQ(found[i].last_s, expected[i].last_s);
+    EXPECT_EQ(labels_in(found[i].transcript), labels_in(expected[i].transcript));
+  }
+}
+
 TEST(ConnectedWordStream, CountsWhatIsSaidBehindTheWakeWord) {
   ConnectedWordStream stream(trained_by_digits(), kRateHz, {}, "rise");
   std::vector<std::vector<std::string>> final;

@@ -120,6 +120,48 @@ TEST(Endpointer, TellsOfTheStartWhileTheWordIsSpokenAndOfTheEndAfterTheHangover)
   }
 }
 
+TEST(Endpointer, TellsOfAPauseOnceAndOfTheUtteranceSoFar) {
+  // Two syllables with 160 ms between them; both pauses are of one utterance.
+  const auto audio = speech(64000, 0.5, 0.002, {{16000, 22400}, {24960, 30400}});
+  const auto plain = events_of(audio, 160);
+  ASSERT_EQ(plain.size(), 2U);
+  for (const double pause_ms : {60.0, 100.0}) {
+    EndpointerOptions options;
+    options.pause_ms = pause_ms;
+    for (const std::size_t block : {std::size_t{1}, std::size_t{160}, audio.size()}) {
+      const auto events = events_of(audio, block, options);
+      ASSERT_EQ(events.size(), 4U) << pause_ms << " " << block;
+      EXPECT_EQ(events[0].at, plain[0].at);
+      std::size_t last = 22400;
+      for (const std::size_t i : {1U, 2U}) {
+        EXPECT_EQ(events[i].kind, EndpointKind::speech_pause);
+        EXPECT_NEAR(static_cast<double>(events[i].at - last) / 16, pause_ms, 40);
+        EXPECT_EQ(events[i].first, plain[1].first);
+        EXPECT_EQ(events[i].segment_first, plain[1].segment_first);
+        EXPECT_EQ(events[i].segment_last, events[i].at);
+        EXPECT_NEAR(static_cast<double>(events[i].last), static_cast<double>(last), 1600);
+        EXPECT_FALSE(events[i].cut);
+        last = 30400;
+      }
+      EXPECT_EQ(events[3].kind, EndpointKind::speech_end);
+      EXPECT_EQ(events[3].at, plain[1].at);
+      EXPECT_EQ(events[3].first, plain[1].first);
+      EXPECT_EQ(events[3].last, plain[1].last);
+      EXPECT_EQ(events[3].segment_last, plain[1].segment_last);
+    }
+  }
+}
+
+TEST(Endpointer, TellsOfNoPauseThatIsNotShorterThanWhatEndsAnUtterance) {
+  const auto audio = speech(64000, 0.5, 0.01, {{16000, 24000}});
+  EndpointerOptions options;
+  EXPECT_EQ(options.pause_ms, 0);
+  for (const double pause_ms : {300.0, 500.0}) {
+    options.pause_ms = pause_ms;
+    EXPECT_EQ(events_of(audio, 512, options).size(), 2U) << pause_ms;
+  }
+}
+
 TEST(Endpointer, AgreesWithFindSpeechOnTheSegment) {
   const auto audio = speech(64000, 0.5, 0.05, {{16000, 22400}, {40000, 46400}});
   for (const Endpoint& e : ends_of(events_of(audio, 512))) {
@@ -244,9 +286,10 @@ TEST(Endpointer, RefusesWhatItCannotJudge) {
     double low;
     double high;
   };
-  for (const Case& c : {Case{&EndpointerOptions::hangover_ms, 50, 5000},
-                        Case{&EndpointerOptions::context_ms, 50, 5000},
-                        Case{&EndpointerOptions::max_utterance_ms, 500, 60000}}) {
+  for (const Case& c :
+       {Case{&EndpointerOptions::hangover_ms, 50, 5000},
+        Case{&EndpointerOptions::pause_ms, 0, 5000}, Case{&EndpointerOptions::context_ms, 50, 5000},
+        Case{&EndpointerOptions::max_utterance_ms, 500, 60000}}) {
     for (const double bad : {c.low - 1, c.high + 1, std::numeric_limits<double>::quiet_NaN()}) {
       EndpointerOptions options;
       options.*c.field = bad;

@@ -21,6 +21,7 @@ namespace hri {
 struct EndpointerOptions {
   ActivityOptions activity;
   double hangover_ms = 300;
+  double pause_ms = 0;
   double context_ms = 300;
   double max_utterance_ms = 5000;
 
@@ -29,6 +30,9 @@ struct EndpointerOptions {
   static void visit(Self& o, Visitor&& v) {
     v("activity", o.activity, any_value, "how speech is found");
     v("hangover_ms", o.hangover_ms, within(50, 5000), "silence that ends an utterance");
+    v("pause_ms", o.pause_ms, within(0, 5000),
+      "silence in an utterance after which what was said so far is told, as if it ended there; 0: "
+      "never, as where that is not shorter than hangover_ms");
     v("context_ms", o.context_ms, within(50, 5000),
       "noise kept from before an utterance, to estimate its level");
     v("max_utterance_ms", o.max_utterance_ms, within(500, 60000),
@@ -41,9 +45,10 @@ enum class EndpointKind : std::uint8_t {
   speech_start,    ///< speech began at `first`
   speech_end,      ///< and has ended: [first, last) is the utterance
   speech_dropped,  ///< rejected: the sound was not speech
+  speech_pause,    ///< and goes on, or ends here: [first, last) is the utterance so far
 };
 constexpr auto enum_names(EndpointKind) {
-  return std::array{"none", "speech_start", "speech_end", "speech_dropped"};
+  return std::array{"none", "speech_start", "speech_end", "speech_dropped", "speech_pause"};
 }
 
 /// An event in the stream; all positions are samples since its beginning.
