@@ -4,19 +4,19 @@
 
 from __future__ import annotations
 
-import math
 import time
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import closing
 
 from hri.core.errors import InvalidArgument
+from hri.core.phrases import phrase
 from hri.live import events
-from hri.live.attention import COMMAND, WAKE, Attention, AttentionTracker
+from hri.live.attention import COMMAND, WAKE, Attention, AttentionTracker, with_threshold
 from hri.live.events import Event, decision_fields
 from hri.live.sources import AudioSource
 from hri.live.utterances import Samples, UtteranceFinder
 from hri.recognition import CommandRecognizer, WordRecognizer
-from hri.recognition.decision import UNKNOWN, Decision
+from hri.recognition.decision import RECOGNISED, UNKNOWN, Decision
 from hri.signal import EndpointerOptions
 
 NEAR = 0.5
@@ -42,10 +42,14 @@ class Listener:
     model_id : str
         Which model decided; passed on with decisions.
     urgent : collection of str
-        Commands of several words end with a long pause; labels of a `CommandRecognizer` given here are decided on at
-        one as short as behind a single word, and need no more than `CommandRecognizer.recognise_early` asks for. What
-        else is said before the long pause is then not decided on. Of a `WordRecognizer` the decision on one that was
-        rejected by at most `NEAR` names it in its field `near`, for those to whom missing it is worse.
+        Labels that are decided on before an utterance has ended. Of a `WordRecognizer` these count at the first pause
+        (`EndpointerOptions.pause_ms`; with 0 there is none) at which what was said so far is one of them, and is
+        `sure`; the decision on one that was rejected by at most `NEAR` names it in its field `near`, for those to whom
+        missing it is worse. Commands of several words end with a long pause; labels of a `CommandRecognizer` given here
+        count at one as short as behind a single word, and need no more than `CommandRecognizer.recognise_early` asks
+        for. What else is said until the end is then not decided on.
+    sure : callable of Decision, optional
+        Which decisions on urgent words count at a pause: by default all that are recognised.
 
     Raises
     ------
@@ -64,6 +68,7 @@ class Listener:
         locale: str = "",
         model_id: str = "",
         urgent: Collection[str] = (),
+        sure: Callable[[Decision], bool] | None = None,
     ) -> None:
         self._attention = attention or Attention()
         wake, labels = self._attention.wake, [str(label) for label in recognizer.classes_]
@@ -78,6 +83,7 @@ class Listener:
             raise InvalidArgument(f"urgent must be a collection of labels, got {urgent!r}")
         self._recognizer = recognizer
         self._urgent = frozenset(urgent).intersection(labels)
+        self._sure = sure
         endpointer = options or _endpointer_of(recognizer)
         pauses = None
         if self._urgent and isinstance(recognizer, CommandRecognizer):
@@ -96,32 +102,55 @@ class Listener:
             When the source gives no more samples, after an event that says so.
         """
         tracker = AttentionTracker(self._attention)
-        urgent_s = (math.inf, -math.inf)
+        early: Event | None = None
         with closing(self._finder.process(source, model=self._model_id)) as results:
-            for event, utterance in results:
-                if event.event == events.PAUSE and utterance is not None:
-                    decided = self._decide_early(event, utterance, source.sample_rate_hz)
+            for event, said in results:
+                if event.event != events.PAUSE:
+                    yield event
+                if said is None:
+                    continue
+                known = early is not None and _overlap(event, early)
+                if event.event == events.PAUSE:
+                    decided = None if known else self._decide_early(event, said, source.sample_rate_hz, tracker)
                     if decided is not None:
-                        urgent_s = (event.fields["first_s"], event.fields["last_s"])
+                        early = decided
                         yield decided
-                    continue
-                yield event
-                if utterance is None:
-                    continue
-                if event.fields["first_s"] < urgent_s[1] and urgent_s[0] < event.fields["last_s"]:
-                    continue  # decided on already
-                yield self._decide(event, utterance, source.sample_rate_hz, tracker)
+                elif not known:
+                    yield self._decide(event, said, source.sample_rate_hz, tracker)
+                elif early is not None:
+                    yield from self._revised(event, said, source.sample_rate_hz, early)
 
-    def _decide_early(self, event: Event, said: Samples, rate: int) -> Event | None:
+    def _decide_early(self, event: Event, said: Samples, rate: int, tracker: AttentionTracker) -> Event | None:
         """The decision on what has been said of an utterance, where that is urgent."""
-        assert isinstance(self._recognizer, CommandRecognizer)
+        if not self._urgent:
+            return None
         begun = time.perf_counter()
-        decision = self._recognizer.recognise_early(said, self._urgent, rate)
+        decision: Decision | None
+        if isinstance(self._recognizer, CommandRecognizer):
+            decision = self._recognizer.recognise_early(said, self._urgent, rate)
+        else:
+            decision = with_threshold(self._recognizer.recognise(said, rate), self._attention.min_score)
+            if decision.status != RECOGNISED or decision.label not in self._urgent:
+                return None
+            if self._sure is not None and not self._sure(decision):
+                return None
+            if tracker.judge(event.fields["first_s"], event.fields["last_s"], decision)[0] != COMMAND:
+                return None
         if decision is None:
             return None
         compute_ms = 1000 * (time.perf_counter() - begun)
         fields = event.fields | decision_fields(decision, self._locale, self._model_id)
         return Event(event.time, events.DECISION, fields | {"compute_ms": round(compute_ms, 3)}, decision)
+
+    def _revised(self, event: Event, utterance: Samples, rate: int, early: Event) -> Iterator[Event]:
+        """That an utterance was decided on early, where the whole of it is something else: to be read, not acted on."""
+        if isinstance(self._recognizer, CommandRecognizer):  # what was urgent is one of several words
+            return
+        label = self._recognizer.recognise(utterance, rate).label
+        if label != early.fields["final"]:
+            fields = {name: event.fields[name] for name in ("first_s", "last_s")}
+            reason = phrase("decided_early", label=early.fields["final"])
+            yield Event(event.time, events.IGNORED, fields | {"final": "", "label": label, "reason": reason})
 
     def _decide(self, event: Event, utterance: Samples, rate: int, tracker: AttentionTracker) -> Event:
         # With the noise around it: the recogniser finds the end points as it did in training.
@@ -149,6 +178,11 @@ class Listener:
             return False
         threshold = words.threshold if min_score is None else min_score
         return decision.nbest[0].label in self._urgent and decision.score >= threshold - NEAR
+
+
+def _overlap(event: Event, early: Event) -> bool:
+    one, other = event.fields, early.fields
+    return bool(one["first_s"] < other["last_s"] and other["first_s"] < one["last_s"])
 
 
 def _endpointer_of(recognizer: WordRecognizer | CommandRecognizer) -> EndpointerOptions:

@@ -17,12 +17,13 @@ from hri.signal import Endpoint, Endpointer, EndpointerOptions
 
 Samples = NDArray[np.float32]
 StreamResult = tuple[Event, Samples | None]
-"""An event; with the end of speech, also the utterance and the noise around it."""
+"""An event; with a pause and the end of speech, also the utterance, so far, and the noise around it."""
 
 _KINDS = {
     "speech_start": events.SPEECH_START,
     "speech_end": events.SPEECH_END,
     "speech_dropped": events.SPEECH_DROPPED,
+    "speech_pause": events.PAUSE,
 }
 
 
@@ -32,12 +33,11 @@ class UtteranceFinder:
     Parameters
     ----------
     options : EndpointerOptions
-        When an utterance begins and ends.
+        When an utterance begins, pauses and ends. A pause gives an event "pause" with the samples so far.
     level_interval_s : float
         Interval between level events.
     pauses : EndpointerOptions, optional
-        When what has been said of an utterance is worth a look before its end: gives events "pause" with the samples
-        since the one before.
+        When parts of an utterance end: gives events "pause" with the samples since the one before.
     """
 
     def __init__(
@@ -104,9 +104,10 @@ def _result(endpoint: Endpoint, history: _History, rate: int) -> StreamResult:
     event = Event(endpoint.at / rate, _KINDS[endpoint.kind], fields)
     if endpoint.kind == "speech_start":
         del fields["last_s"]
-    if endpoint.kind != "speech_end":
+    if endpoint.kind == "speech_end":
+        fields["cut"] = endpoint.cut
+    elif endpoint.kind != "speech_pause":
         return event, None
-    fields["cut"] = endpoint.cut
     return event, history.between(endpoint.segment_first, endpoint.segment_last)
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from hri.core.errors import Error, FormatError, InvalidArgument, IoError
 from hri.fusion import LearnedFusion
 from hri.language import KnowledgeBase
-from hri.live import Event, HandFrames, Listener
+from hri.live import Event, HandFrames
 from hri.live.events import OVERFLOW
 from hri.live.frames import TimedFrame
 from hri.live.sources import Stalled
@@ -29,6 +29,7 @@ from hri.recognition import (
     WordRecognizer,
 )
 from hri.session.feeds import Alignment, Arrival, Feed
+from hri.session.hearing import listener_of
 from hri.session.live import PASSING
 from hri.session.logic import ASKED, MOTION_END, TICK, NoRobot, SessionLogic
 from hri.session.reading import Message, Recording, wrong
@@ -105,8 +106,7 @@ def replay(
         if words is None:
             raise InvalidArgument(f"{recording.path}: sound was recorded, and needs a recogniser of words")
         endpointer = None if recording.endpointer is None else EndpointerOptions(**recording.endpointer)
-        stops = recording.options.fusion.stop_labels
-        heard = Listener(words, endpointer, model_id=ids.get("speech", ""), urgent=stops)
+        heard = listener_of(words, endpointer, recording.options, ids.get("speech", ""))
         feeds["speech"] = Feed("speech", sound, heard.listen)
     if pictures:
         if signs is None:

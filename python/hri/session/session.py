@@ -28,6 +28,7 @@ from hri.recognition import (
 )
 from hri.robot import Robot, Trajectory
 from hri.session.feeds import Arrival, Clock, Feed, SessionRecorder, closing_unread_if_refused, merge
+from hri.session.hearing import endpointer_of, listener_of
 from hri.session.imitation import ImitatingTap, Imitator
 from hri.session.live import EventQueue, LiveFeeds
 from hri.session.logic import ASKED, IMITATE, ONLY_STOP, REST, STOP, TICK, Body, NoRobot, SessionLogic, session_event
@@ -64,7 +65,7 @@ class Session:
         the gesture of the same name; `LabelMotions` are of their labels only, and the others have that. Those that the
         robot cannot make are left out, and `refused` says why.
     endpointer : EndpointerOptions, optional
-        When a word begins and ends; see `hri.live.Listener`.
+        When a word begins and ends, and after which pause in it STOP counts; see `hri.live.Listener`.
     segmenter : GestureSegmenterOptions or SentenceStreamOptions, optional
     hands : HandFrames, optional
         When a gesture, or a signed sentence, begins and ends, and what a `SentenceRecognizer` gets of the pictures; see
@@ -142,12 +143,11 @@ class Session:
             if not (chosen.sentence_begin_labels or isinstance(signs, SentenceRecognizer)):
                 raise InvalidArgument("knowledge: stored sentences need labels that begin and end one")
             ids.setdefault("knowledge", f"{len(knowledge.sentences)} sentences")
-        self._endpointer, self._segmenter = endpointer, segmenter
+        self._endpointer, self._segmenter = endpointer or endpointer_of(words), segmenter
         self._slots = words.commands_ if isinstance(words, CommandRecognizer) else {}
         self._listener: Listener | None = None
         if words is not None:
-            stops = chosen.fusion.stop_labels
-            self._listener = Listener(words, endpointer, model_id=ids.get("speech", ""), urgent=stops)
+            self._listener = listener_of(words, self._endpointer, chosen, ids.get("speech", ""))
         self._whole_sentences = isinstance(signs, SentenceRecognizer)
         parts = (segmenter, hands, faces, ids.get("gesture", ""), on_result)
         self._watcher = None if signs is None else watcher_of(signs, *parts)
