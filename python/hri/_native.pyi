@@ -724,7 +724,7 @@ class EndpointerOptions:
     hangover_ms : float, default 300.0
         silence that ends an utterance; 50..5000 ms
     pause_ms : float, default 0.0
-        silence in an utterance after which what was said so far is told, as if it ended there; 0: never, as where that is not shorter than hangover_ms; 0..5000 ms
+        silence in an utterance after which what was said so far is reported, as if it ended there; 0: never, as where that is not shorter than hangover_ms; 0..5000 ms
     context_ms : float, default 300.0
         noise kept from before an utterance, to estimate its level; 50..5000 ms
     max_utterance_ms : float, default 5000.0
@@ -785,7 +785,7 @@ class EndpointerOptions:
     @property
     def pause_ms(self) -> float:
         """
-        silence in an utterance after which what was said so far is told, as if it ended there; 0: never, as where that is not shorter than hangover_ms
+        silence in an utterance after which what was said so far is reported, as if it ended there; 0: never, as where that is not shorter than hangover_ms
         """
     @pause_ms.setter
     def pause_ms(self, arg1: typing.Any) -> None: ...

@@ -186,7 +186,7 @@ TEST(ConnectedWordStream, DoesNotDependOnBlocks) {
   }
 }
 
-TEST(ConnectedWordStream, GoesOnThroughPausesThatItIsToldOf) {
+TEST(ConnectedWordStream, GoesOnThroughPauses) {
   const std::vector<float> audio = two_utterances();
   ConnectedWordStream plain(trained_by_digits(), kRateHz);
   const auto expected = results_of(&plain, audio, 1600);

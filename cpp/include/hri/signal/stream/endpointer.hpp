@@ -31,8 +31,8 @@ struct EndpointerOptions {
     v("activity", o.activity, any_value, "how speech is found");
     v("hangover_ms", o.hangover_ms, within(50, 5000), "silence that ends an utterance");
     v("pause_ms", o.pause_ms, within(0, 5000),
-      "silence in an utterance after which what was said so far is told, as if it ended there; 0: "
-      "never, as where that is not shorter than hangover_ms");
+      "silence in an utterance after which what was said so far is reported, as if it ended there; "
+      "0: never, as where that is not shorter than hangover_ms");
     v("context_ms", o.context_ms, within(50, 5000),
       "noise kept from before an utterance, to estimate its level");
     v("max_utterance_ms", o.max_utterance_ms, within(500, 60000),
