@@ -31,8 +31,9 @@ INTO_S = (0.2, 2.2)
 AFTER_S = 0.4
 """Roughly from the end of a command to the motion."""
 FLOOR_DB = -65.0
-MAX_COMPUTE_MS = 150.0
-MEASURES = ("motion_wait_ms", "motion_compute_ms", "stop_wait_ms", "stop_compute_ms")
+MAX_STOP_MS = 150.0
+MEASURES = ("motion_wait_ms", "motion_compute_ms", "stop_wait_ms", "stop_compute_ms", "stop_after_ms")
+"""Of the events, but for the last: from the end of STOP as it was found when the word was over, computing included."""
 
 
 class Commands:
@@ -104,6 +105,11 @@ def play_try(
             found |= {"halted": robot.stopped, **{f"stop_{k}": event.fields[k] for k in ("wait_ms", "compute_ms")}}
         if event.event == "motion_end":
             found["over"] = event.fields["completed"] and event.time < begin / rate
+    if found["halted"]:
+        # STOP counts before its end is certain, so that its event has an end that may have been too early.
+        (halt_s,) = [event.time for event in events if event.event == "halt"]
+        last_s = [event.fields["last_s"] for event in events if event.event == "speech_end"][-1]
+        found["stop_after_ms"] = 1000 * (halt_s - last_s) + found["stop_compute_ms"]
     found["safe"] = len(sent.rows) > 2 and within_limits(sent.rows, robot.step_s)
     return found
 
@@ -161,13 +167,15 @@ def _run(data_dir: Path, progress: Progress, *, folds: int | None = None) -> dic
         name: {"median": float(np.median(values)), "95 %": float(np.quantile(values, 0.95)), "most": max(values)}
         for name, values in figures.items()
     }
-    compute_ms = quantiles["stop_compute_ms"]["median"]
     return {
         "seed": SEED,
         "rows": [{"tries": "all", **statistics(stopped)}],
         **counts,
         "latency": quantiles,
-        "passed": bool(counts["halted"] == counts["safe"] == counts["tries"] > 0 and compute_ms < MAX_COMPUTE_MS),
+        "passed": bool(
+            counts["halted"] == counts["safe"] == counts["tries"] > 0
+            and quantiles["stop_after_ms"]["95 %"] < MAX_STOP_MS
+        ),
     }
 
 
@@ -176,8 +184,8 @@ STUDIES = (
         "session-stop",
         f"STOP said {NUM_TRIES} times in the middle of a motion, by speakers that were not trained on",
         ("commands",),
-        "every clear STOP halts the robot, joints within their limits; to the first command of stopping less than "
-        f"{MAX_COMPUTE_MS:.0f} ms of computing (median)",
+        "every clear STOP halts the robot, joints within their limits; from the end of the word to the first command "
+        f"of stopping less than {MAX_STOP_MS:.0f} ms (95 %)",
         _run,
         Layout(),
         sources=(*WORD_SOURCES, "cpp/signal/stream"),
