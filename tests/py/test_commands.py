@@ -149,6 +149,18 @@ def test_stop_does_not_wait_for_the_pause_that_ends_a_command(commands: CommandR
     assert decided_in(160) == decided_in(1000) == decided_in(len(stream))
 
 
+def test_in_a_session_stop_by_itself_counts_as_soon_as_a_word_does(commands: CommandRecognizer) -> None:
+    options = SessionOptions(fusion=FusionOptions(stop_labels=("1",)))
+    decided = {}
+    for pauses in (False, True):
+        session = Session(commands, options=options, endpointer=None if pauses else commands.endpointer)
+        events = list(session.run(ArraySource(np.concatenate([tones("1"), tones("2 1 2")]), RATE_HZ)))
+        decided[pauses] = [(e.fields["final"], e.time) for e in events if e.event == "decision"]
+        assert [label for label, _ in decided[pauses]] == ["1", "2 1 2"]  # once, and not at the pauses of another
+    (_, late_s), (_, end_s) = decided[False]
+    assert decided[True] == [("1", pytest.approx(late_s - 0.15, abs=0.02)), ("2 1 2", end_s)]
+
+
 def test_a_command_that_is_unsure_is_unknown_unless_it_is_stop(unscaled_words: ConnectedWordRecognizer) -> None:
     def commands(min_confidence: float) -> CommandRecognizer:
         return CommandRecognizer(unscaled_words, Grammar.parse(GRAMMAR, "tones.jsgf"), min_confidence=min_confidence)

@@ -46,10 +46,10 @@ class Listener:
         (`EndpointerOptions.pause_ms`; with 0 there is none) at which what was said so far is one of them, and is
         `sure`; the decision on one that was rejected by at most `NEAR` names it in its field `near`, for those to whom
         missing it is worse. Commands of several words end with a long pause; labels of a `CommandRecognizer` given here
-        count at one as short as behind a single word, and need no more than `CommandRecognizer.recognise_early` asks
-        for. What else is said until the end is then not decided on.
+        count at one as short as behind a single word, and by themselves at the first pause, too, and need no more than
+        `CommandRecognizer.recognise_early` asks for. What else is said until the end is then not decided on.
     sure : callable of Decision, optional
-        Which decisions on urgent words count at a pause: by default all that are recognised.
+        Which decisions of a `WordRecognizer` on urgent words count at a pause: by default all that are recognised.
 
     Raises
     ------
@@ -84,7 +84,7 @@ class Listener:
         self._recognizer = recognizer
         self._urgent = frozenset(urgent).intersection(labels)
         self._sure = sure
-        endpointer = options or _endpointer_of(recognizer)
+        endpointer = options or endpointer_of(recognizer)
         pauses = None
         if self._urgent and isinstance(recognizer, CommandRecognizer):
             short = EndpointerOptions(activity=recognizer.endpointer.activity)
@@ -185,7 +185,8 @@ def _overlap(event: Event, early: Event) -> bool:
     return bool(one["first_s"] < other["last_s"] and other["first_s"] < one["last_s"])
 
 
-def _endpointer_of(recognizer: WordRecognizer | CommandRecognizer) -> EndpointerOptions:
+def endpointer_of(recognizer: WordRecognizer | CommandRecognizer) -> EndpointerOptions:
+    """When an utterance begins and ends, unless a caller says it."""
     if isinstance(recognizer, CommandRecognizer):
         return recognizer.endpointer
     return EndpointerOptions(activity=recognizer.options.activity)

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from hri.live import Listener
+from hri.live.listener import endpointer_of
 from hri.recognition import CommandRecognizer, Decision, WordRecognizer
 from hri.session.options import SessionOptions
 from hri.session.pairing import Pairer
@@ -18,11 +19,11 @@ shorter ones the beginnings of more other words are STOP.
 """
 
 
-def endpointer_of(words: WordRecognizer | CommandRecognizer | None) -> EndpointerOptions | None:
-    """When an utterance pauses and ends, unless a caller says it; None leaves that to the listener."""
-    if not isinstance(words, WordRecognizer):
-        return None
-    return EndpointerOptions(activity=words.options.activity, pause_ms=STOP_PAUSE_MS)
+def pausing_endpointer_of(words: WordRecognizer | CommandRecognizer) -> EndpointerOptions:
+    """When an utterance begins, pauses and ends, unless a caller says it."""
+    options = endpointer_of(words)
+    options.pause_ms = STOP_PAUSE_MS
+    return options
 
 
 def listener_of(

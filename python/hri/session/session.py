@@ -17,7 +17,7 @@ from typing import Any
 from hri.core.errors import Error, InvalidArgument
 from hri.fusion import LearnedFusion
 from hri.language import KnowledgeBase
-from hri.live import AudioSource, Event, FrameSource, HandFrames, Listener
+from hri.live import AudioSource, Event, FrameSource, HandFrames
 from hri.recognition import (
     CommandRecognizer,
     GestureRecognizer,
@@ -28,7 +28,7 @@ from hri.recognition import (
 )
 from hri.robot import Robot, Trajectory
 from hri.session.feeds import Arrival, Clock, Feed, SessionRecorder, closing_unread_if_refused, merge
-from hri.session.hearing import endpointer_of, listener_of
+from hri.session.hearing import listener_of, pausing_endpointer_of
 from hri.session.imitation import ImitatingTap, Imitator
 from hri.session.live import EventQueue, LiveFeeds
 from hri.session.logic import ASKED, IMITATE, ONLY_STOP, REST, STOP, TICK, Body, NoRobot, SessionLogic, session_event
@@ -124,7 +124,7 @@ class Session:
             raise InvalidArgument("a session needs a recogniser of words or of gestures")
         self.options = options or SessionOptions()
         self._robot = robot
-        self._on_say, self._voice = on_say, voice
+        self._on_say, self._voice, self._segmenter = on_say, voice, segmenter
         self._labels = vocabulary_of(words, signs)
         # Words of a signed sentence are no commands.
         self._command_labels = vocabulary_of(words, None if isinstance(signs, SentenceRecognizer) else signs)
@@ -143,10 +143,10 @@ class Session:
             if not (chosen.sentence_begin_labels or isinstance(signs, SentenceRecognizer)):
                 raise InvalidArgument("knowledge: stored sentences need labels that begin and end one")
             ids.setdefault("knowledge", f"{len(knowledge.sentences)} sentences")
-        self._endpointer, self._segmenter = endpointer or endpointer_of(words), segmenter
         self._slots = words.commands_ if isinstance(words, CommandRecognizer) else {}
-        self._listener: Listener | None = None
+        self._listener, self._endpointer = None, endpointer
         if words is not None:
+            self._endpointer = endpointer or pausing_endpointer_of(words)
             self._listener = listener_of(words, self._endpointer, chosen, ids.get("speech", ""))
         self._whole_sentences = isinstance(signs, SentenceRecognizer)
         parts = (segmenter, hands, faces, ids.get("gesture", ""), on_result)
