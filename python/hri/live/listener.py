@@ -7,9 +7,9 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Collection, Iterator
 from contextlib import closing
+from dataclasses import replace
 
 from hri.core.errors import InvalidArgument
-from hri.core.phrases import phrase
 from hri.live import events
 from hri.live.attention import COMMAND, WAKE, Attention, AttentionTracker, with_threshold
 from hri.live.events import Event, decision_fields
@@ -105,20 +105,20 @@ class Listener:
         early: Event | None = None
         with closing(self._finder.process(source, model=self._model_id)) as results:
             for event, said in results:
-                if event.event != events.PAUSE:
-                    yield event
                 if said is None:
+                    yield event
                     continue
-                known = early is not None and _overlap(event, early)
+                known = early if early is not None and _overlap(event, early) else None
                 if event.event == events.PAUSE:
                     decided = None if known else self._decide_early(event, said, source.sample_rate_hz, tracker)
                     if decided is not None:
                         early = decided
                         yield decided
-                elif not known:
+                elif known is not None:
+                    yield self._with_whole(event, said, source.sample_rate_hz, known)
+                else:
+                    yield event
                     yield self._decide(event, said, source.sample_rate_hz, tracker)
-                elif early is not None:
-                    yield from self._revised(event, said, source.sample_rate_hz, early)
 
     def _decide_early(self, event: Event, said: Samples, rate: int, tracker: AttentionTracker) -> Event | None:
         """The decision on what has been said of an utterance, where that is urgent."""
@@ -142,15 +142,12 @@ class Listener:
         fields = event.fields | decision_fields(decision, self._locale, self._model_id)
         return Event(event.time, events.DECISION, fields | {"compute_ms": round(compute_ms, 3)}, decision)
 
-    def _revised(self, event: Event, utterance: Samples, rate: int, early: Event) -> Iterator[Event]:
-        """That an utterance was decided on early, where the whole of it is something else: to be read, not acted on."""
+    def _with_whole(self, event: Event, utterance: Samples, rate: int, early: Event) -> Event:
+        """The end of an utterance that was decided on early, with what the whole of it is, where that differs."""
         if isinstance(self._recognizer, CommandRecognizer):  # what was urgent is one of several words
-            return
+            return event
         label = self._recognizer.recognise(utterance, rate).label
-        if label != early.fields["final"]:
-            fields = {name: event.fields[name] for name in ("first_s", "last_s")}
-            reason = phrase("decided_early", label=early.fields["final"])
-            yield Event(event.time, events.IGNORED, fields | {"final": "", "label": label, "reason": reason})
+        return event if label == early.fields["final"] else replace(event, fields=event.fields | {"whole": label})
 
     def _decide(self, event: Event, utterance: Samples, rate: int, tracker: AttentionTracker) -> Event:
         # With the noise around it: the recogniser finds the end points as it did in training.

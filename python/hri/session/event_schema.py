@@ -87,6 +87,7 @@ _FIELDS: dict[str, Schema] = {
     "text": _of("string", "What the robot says"),
     "times_s": _list({"type": "array", "items": _NUMBER, "minItems": 2, "maxItems": 2}, "Begin and end of each word"),
     "wait_ms": _of("number", "From the end of the word or sign to the decision, in milliseconds"),
+    "whole": _of("string", "What an utterance is as a whole, where it was decided on early as something else"),
     "why": _of("string", "Why paired, or alone"),
     "words": _list(_TEXT, "Of the sentence"),
     "x": {

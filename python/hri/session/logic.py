@@ -184,6 +184,9 @@ class SessionLogic:
             self._unsettled.discard(mode)
             pairs = self.pairer.leave(mode, time_s)
         else:
+            if "whole" in event.fields:
+                reason = phrase("decided_early")
+                out.append(session_event(time_s, IGNORED, label=event.fields["whole"], reason=reason))
             if event.event == kinds.PRELIMINARY:  # what was shown may go on
                 self._unsettled.add(mode)
             pairs = self.pairer.tick(mode, time_s)

@@ -125,13 +125,14 @@ def replay(
         whole_sentences=isinstance(signs, SentenceRecognizer),
     )
     streams = {mode: feed.events() for mode, feed in feeds.items()}
+    early: dict[str, Event] = {}
     recorded = {"speech": sound, "gesture": pictures}
     for given in recording.events():
         if given["mode"] in ("session", "robot") and given["event"] not in _GIVEN:
             continue
         event = None
         if given["event"] not in _GIVEN and given["mode"] in feeds:
-            event = _next(streams, feeds[given["mode"]], given)
+            event = _next(streams, early, feeds[given["mode"]], given)
             failure = recorded[given["mode"]].failure
             if failure is not None:  # which a feed makes a stall of
                 raise failure
@@ -155,14 +156,21 @@ def as_event(given: dict[str, Any]) -> Event:
     return Event(given["time"], given["event"], fields, mode=given["mode"])
 
 
-def _next(streams: dict[str, Any], feed: Feed[Any], given: dict[str, Any]) -> Event | None:
-    """The next event of a mode; None when its stream has ended sooner. What passed unheeded does so again."""
+def _next(streams: dict[str, Any], early: dict[str, Event], feed: Feed[Any], given: dict[str, Any]) -> Event | None:
+    """The next event of a mode; None where that is no such event that passes, and when its stream has ended sooner.
+
+    What passed unheeded does so again. Other models may decide earlier or later among events that pass: what comes in
+    place of one of these is kept in `early` for the next that does not pass.
+    """
     while True:
-        event: Event | None = next(streams[feed.mode], None)
+        event: Event | None = early.pop(feed.mode, None) or next(streams[feed.mode], None)
         if event is None:
             if not (feed.lost and feed.returns(given["time"])):
                 return None
             streams[feed.mode] = feed.events()
+        elif event.event not in PASSING and given["event"] in PASSING:
+            early[feed.mode] = event
+            return None
         elif event.event not in PASSING or _is(event, given):
             return event
 
