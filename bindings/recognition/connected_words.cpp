@@ -32,7 +32,8 @@ hri::ConnectedWordRecognizer train_connected(
     const hri::ConnectedWordRecognizerOptions& options,
     const std::function<void(int, int)>& progress, const std::vector<FloatArray>& fillers,
     const std::vector<int>& filler_rates_hz, const std::vector<std::string>& filler_labels,
-    const std::vector<std::string>& filler_groups) {
+    const std::vector<std::string>& filler_groups,
+    const std::shared_ptr<hri::SpeechEmbedding>& embedding) {
   const auto words = as_word_samples(samples, sample_rates_hz, labels, groups, "X");
   const auto others =
       as_word_samples(fillers, filler_rates_hz, filler_labels, filler_groups, "fillers");
@@ -45,7 +46,7 @@ hri::ConnectedWordRecognizer train_connected(
   }
   const py::gil_scoped_release release;
   return hri::ConnectedWordRecognizer::train(words, options, with_gil, hri_bind::interrupted,
-                                             others);
+                                             others, embedding);
 }
 
 }  // namespace
@@ -87,19 +88,26 @@ void bind_connected_words(py::module_& m) {
                   py::arg("progress") = nullptr, py::arg("fillers") = std::vector<FloatArray>{},
                   py::arg("filler_rates_hz") = std::vector<int>{},
                   py::arg("filler_labels") = std::vector<std::string>{},
-                  py::arg("filler_groups") = std::vector<std::string>{})
+                  py::arg("filler_groups") = std::vector<std::string>{},
+                  py::arg("embedding") = nullptr)
       .def_static(
           "load",
-          [](const hri_bind::Path& path) { return hri::ConnectedWordRecognizer::load(path.text); },
-          py::arg("path"), py::call_guard<py::gil_scoped_release>())
+          [](const hri_bind::Path& path, const std::shared_ptr<hri::SpeechEmbedding>& embedding) {
+            return hri::ConnectedWordRecognizer::load(path.text, embedding);
+          },
+          py::arg("path"), py::arg("embedding") = nullptr, py::call_guard<py::gil_scoped_release>())
       .def(
           "save",
           [](const hri::ConnectedWordRecognizer& self, const hri_bind::Path& path) {
             self.save(path.text);
           },
           py::arg("path"), py::call_guard<py::gil_scoped_release>())
-      .def_static("from_model_file", &hri::ConnectedWordRecognizer::from_model_file,
-                  py::arg("file"))
+      .def_static(
+          "from_model_file",
+          [](const hri::ModelFile& file, const std::shared_ptr<hri::SpeechEmbedding>& embedding) {
+            return hri::ConnectedWordRecognizer::from_model_file(file, embedding);
+          },
+          py::arg("file"), py::arg("embedding") = nullptr)
       .def("to_model_file", &hri::ConnectedWordRecognizer::to_model_file)
       .def("with_language", &hri::ConnectedWordRecognizer::with_language, py::arg("language"))
       .def("with_grammar", &hri::ConnectedWordRecognizer::with_grammar, py::arg("grammar"))

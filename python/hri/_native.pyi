@@ -7565,7 +7565,7 @@ class ConnectedWordRecognizerOptions:
     Parameters
     ----------
     words : WordRecognizerOptions or dict
-        front end, models and augmentation as of isolated words; ptbhmm: the same densities as possibilities over codewords, num_codewords for every column of the features; what these reject words by is not used
+        front end, models and augmentation as of isolated words; ptbhmm: the same densities as possibilities over codewords, num_codewords for every column of the features; front_end both: words of a first search are named anew by a pretrained speech embedding; what these reject words by is not used
     silence_states : int, default 3
         left-right states of silence; 1..64
     silence_mixtures : int, default 4
@@ -7577,7 +7577,7 @@ class ConnectedWordRecognizerOptions:
     num_alignments : int, default 1
         times that the boundaries of words are moved to where the models put them, and the models trained again; 0..10
     choose_penalty : bool, default True
-        decoder.insertion_penalty, confidence_scale and unknown_lead are chosen on strings of speakers held out
+        decoder.insertion_penalty, confidence_scale, unknown_lead and, where it is 0, words.embedding_weight are chosen on strings of speakers held out
     confidence_scale : float, default 0.02
         factor on log scores in confidences, as neighbouring frames do not score independently; 1e-06..1
     min_confidence : float, default 0.0
@@ -7632,7 +7632,7 @@ class ConnectedWordRecognizerOptions:
     @property
     def choose_penalty(self) -> bool:
         """
-        decoder.insertion_penalty, confidence_scale and unknown_lead are chosen on strings of speakers held out
+        decoder.insertion_penalty, confidence_scale, unknown_lead and, where it is 0, words.embedding_weight are chosen on strings of speakers held out
         """
     @choose_penalty.setter
     def choose_penalty(self, arg1: typing.Any) -> None: ...
@@ -7730,7 +7730,7 @@ class ConnectedWordRecognizerOptions:
     @property
     def words(self) -> WordRecognizerOptions:
         """
-        front end, models and augmentation as of isolated words; ptbhmm: the same densities as possibilities over codewords, num_codewords for every column of the features; what these reject words by is not used
+        front end, models and augmentation as of isolated words; ptbhmm: the same densities as possibilities over codewords, num_codewords for every column of the features; front_end both: words of a first search are named anew by a pretrained speech embedding; what these reject words by is not used
         """
     @words.setter
     def words(self, arg1: typing.Any) -> None: ...
@@ -7845,9 +7845,9 @@ class ConnectedWordRecognizer:
     Connected words; hri.ConnectedWordRecognizer wraps it.
     """
     @staticmethod
-    def from_model_file(file: ModelFile) -> ConnectedWordRecognizer: ...
+    def from_model_file(file: ModelFile, embedding: SpeechEmbedding = None) -> ConnectedWordRecognizer: ...
     @staticmethod
-    def load(path: str | bytes | os.PathLike[str]) -> ConnectedWordRecognizer: ...
+    def load(path: str | bytes | os.PathLike[str], embedding: SpeechEmbedding = None) -> ConnectedWordRecognizer: ...
     @staticmethod
     def train(
         samples: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float32]],
@@ -7860,6 +7860,7 @@ class ConnectedWordRecognizer:
         filler_rates_hz: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
         filler_labels: collections.abc.Sequence[str] = [],
         filler_groups: collections.abc.Sequence[str] = [],
+        embedding: SpeechEmbedding = None,
     ) -> ConnectedWordRecognizer: ...
     def align(self, recording: ScoredRecording, words: collections.abc.Sequence[str]) -> Transcript: ...
     def lattice(

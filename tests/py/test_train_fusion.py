@@ -116,7 +116,7 @@ def validated(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
 def test_it_learns_from_the_recognisers_that_train_makes(
     hri: Any, corpora: Path, tmp_path: Path, validated: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(choices, "_has_embedding", lambda: False)
+    monkeypatch.setattr(choices, "has_embedding", lambda: False)
     monkeypatch.setattr(choices, "choose_source", lambda _: ("silhouettes", "source: silhouettes, because"))
     data = ("--speech-data", corpora / "spoken", "--gesture-data", corpora / "signed", "--out", tmp_path / "fusion.hri")
     done = hri("train-fusion", *data, "--json", "-")

@@ -27,14 +27,14 @@ def untrained(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_words_are_of_what_is_installed(
     spoken: Path, monkeypatch: pytest.MonkeyPatch, installed: bool, front_end: str, network: bool
 ) -> None:
-    monkeypatch.setattr(choices, "_has_embedding", lambda: installed)
+    monkeypatch.setattr(choices, "has_embedding", lambda: installed)
     options = hri.train(spoken).options
     assert (options.front_end, options.use_network) == (front_end, network), "three speakers"
     assert not hri.train(spoken, hri.WordRecognizer(front_end="cepstra")).options.use_network, "is taken as it is"
 
 
 def test_what_is_given_stands(spoken: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(choices, "_has_embedding", lambda: True)
+    monkeypatch.setattr(choices, "has_embedding", lambda: True)
     dataset = hri.Dataset.load(spoken)
     assert choose_options(dataset, {"front_end": "cepstra"}).options == {"use_network": True}
     assert choose_options(dataset, {"front_end": "cepstra"}, num_persons=2).options == {}

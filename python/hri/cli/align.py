@@ -15,6 +15,7 @@ from hri.cli.connected import connected_model
 from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json, write_text
+from hri.cli.recognizers import embedding_option, load_embedding
 from hri.cli.transcripts import (
     EXIT_BAD_DATA,
     NamedRecordings,
@@ -29,7 +30,7 @@ from hri.core.errors import FormatError, InvalidArgument
 from hri.htk import MasterLabelFile, Transcription
 from hri.media import Audio, read_audio
 from hri.recognition import ConnectedWordRecognizer, Transcript
-from hri.recognition.sentence.recognizer import UNKNOWN
+from hri.recognition.sentence.transcript import UNKNOWN
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,7 @@ class _Task:
     metavar="MODEL",
     help="A model from 'hri train-connected'; the default is the one kept per user.",
 )
+@embedding_option
 @click.option(
     "--words", metavar="TEXT", help='What was said in every FILE, in its order: labels of the model, as "3 1 2".'
 )
@@ -75,6 +77,7 @@ class _Task:
 def align(
     files: tuple[str, ...],
     model: str | None,
+    embedding_path: str | None,
     words: str | None,
     transcripts: str | None,
     mlf: Path | None,
@@ -100,7 +103,8 @@ def align(
         raise click.UsageError("name the recordings in which --words were said")
     if words is not None and not words.split():
         raise click.UsageError("--words: there is no word")
-    recognizer = ConnectedWordRecognizer.load(connected_model() if model is None else model)
+    embedding = load_embedding(embedding_path)
+    recognizer = ConnectedWordRecognizer.load(connected_model() if model is None else model, embedding=embedding)
     if words is not None:
         said = Said("", words.split(), ["--words"] * len(words.split()), "--words")
         _require_words(said, recognizer)

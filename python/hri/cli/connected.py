@@ -7,15 +7,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import click
 
+from hri.cli.choices import names
 from hri.cli.groups import CheckedCommand, FiniteRange, refuse_given
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import (
     default_model,
+    embedding_option,
     load_dataset,
     naming_options,
     options_option,
@@ -27,9 +30,10 @@ from hri.core.errors import InvalidArgument
 from hri.io import SpokenWords
 from hri.language import NGramModel
 from hri.media import read_audio
-from hri.recognition import ConnectedWordRecognizer
-from hri.recognition.sentence.recognizer import UNKNOWN
+from hri.recognition import ConnectedWordRecognizer, SpeechEmbedding
+from hri.recognition.sentence.transcript import UNKNOWN
 from hri.synthetic.speech import speak_words
+from hri.training import has_embedding
 
 MODE = "connected"
 """Under which name the model is kept per user."""
@@ -45,6 +49,14 @@ language_scale_option = click.option(
 )
 
 
+front_end_option = click.option(
+    "--front-end",
+    type=click.Choice(["cepstra", "both"]),
+    help="cepstra alone, or both: words that these find are named anew by a pretrained speech embedding, which the "
+    "extra embedding installs. The default is both where the extra is. The same as --option words.front_end=...",
+)
+
+
 @click.command("train-connected", cls=CheckedCommand)
 @click.option(
     "--data",
@@ -54,6 +66,8 @@ language_scale_option = click.option(
 )
 @pattern_option
 @click.option("--out", type=OutputFile(), metavar="MODEL", help="Model file; the default is kept per user.")
+@front_end_option
+@embedding_option
 @options_option("connected", "words.num_states=8")
 @click.option(
     "--language",
@@ -79,6 +93,8 @@ def train_connected(
     data: str,
     pattern: str | None,
     out: str | None,
+    front_end: str | None,
+    embedding_path: str | None,
     options: tuple[str, ...],
     language: str | None,
     language_scale: float | None,
@@ -99,6 +115,7 @@ def train_connected(
       hri train-connected --data spoken/ --language commands.arpa --out commands.hri
       hri train-connected --data spoken/ --language commands.arpa --language-scale 15
       hri train-connected --data spoken/ --add sideways --add "ulta=उल्टा" --voice hi
+      hri train-connected --data spoken/ --front-end cepstra
       hri train-connected --data spoken/ --option words.num_states=6 --option max_pause_ms=500
     """
     scaled = any(option.startswith("decoder.language_scale=") for option in options)
@@ -106,10 +123,10 @@ def train_connected(
         refuse_given(("language_scale",), "goes with --language")
     elif scaled:
         refuse_given(("language_scale",), "and --option decoder.language_scale=... exclude each other")
-    fields = parse_options((f"words.seed={seed}", *options))
-    refuse_chosen(fields, "choose_penalty")
+    fields = connected_options(options, front_end, embedding_path, seed)
     with naming_options():
         recognizer = ConnectedWordRecognizer(**fields)
+    embedding = connected_embedding(recognizer, embedding_path)
     dataset = load_dataset(data, "speech", pattern)
     spellings = _spellings(added, dataset.labels)
     model = None if language is None else load_language(language, [*dataset.labels, *spellings])
@@ -127,6 +144,7 @@ def train_connected(
             clips,
             labels,
             groups=persons,
+            embedding=embedding,
             progress=lambda done, total: progress("training", done, total),
         )
     if model is not None:
@@ -143,6 +161,7 @@ def train_connected(
     if spellings:
         note(f"not recorded, said by {num_voices} synthetic voices: {' '.join(spellings)}")
     note(f"insertion penalty: {recognizer.insertion_penalty:g}")
+    note(_what_words_are_of(recognizer))
     if model is not None:
         note(f"language model of order {model.order}, scale {recognizer.language_scale:g}")
     write_json(
@@ -153,6 +172,44 @@ def train_connected(
             "synthetic_labels": list(spellings),
             "insertion_penalty": recognizer.insertion_penalty,
         },
+    )
+
+
+def connected_options(
+    options: tuple[str, ...], front_end: str | None, embedding_path: str | None, seed: int
+) -> dict[str, Any]:
+    """What ``--option`` and the flags of the front end say, and the front end that is taken without.
+
+    Raises
+    ------
+    click.UsageError
+        For flags and an option that do not go together, and options that training chooses.
+    """
+    named = names(options, "words.front_end")
+    for flag, given in (("--front-end", front_end), ("--embedding", embedding_path)):
+        if given is not None and named and (flag == "--front-end" or "words.front_end=cepstra" in options):
+            raise click.UsageError(f"{flag} and --option words.front_end=... exclude each other")
+    if front_end == "cepstra" and embedding_path is not None:
+        raise click.UsageError("--embedding is for --front-end both")
+    if not named:
+        chosen = front_end or ("both" if embedding_path is not None or has_embedding() else "cepstra")
+        options = (*options, f"words.front_end={chosen}")
+    fields = parse_options((f"words.seed={seed}", *options))
+    refuse_chosen(fields, "choose_penalty")
+    return fields
+
+
+def connected_embedding(recognizer: ConnectedWordRecognizer, path: str | None) -> SpeechEmbedding | None:
+    """What training takes; ImportError, before recordings are read, where neither the extra nor a file gives it."""
+    return None if recognizer.options.words.front_end == "cepstra" else SpeechEmbedding(path)
+
+
+def _what_words_are_of(recognizer: ConnectedWordRecognizer) -> str:
+    if recognizer.options.words.front_end == "cepstra":
+        return "front end: cepstra; --front-end both names words more surely (extra embedding)"
+    return (
+        "front end: both, cepstra and a speech embedding (extra embedding); wherever the model is used it needs the "
+        "extra too, or the weights (--embedding), or --front-end cepstra here"
     )
 
 

@@ -133,10 +133,12 @@ def evaluate(
       hri evaluate sentences --data signed/ --json errors.json
     """
     if mode == CONNECTED:
-        _refuse_all_but("data", "transcripts", "pattern", "options", "seed", "json_path")
+        _refuse_all_but("data", "transcripts", "pattern", "front_end", "embedding_path", "options", "seed", "json_path")
+        if front_end == "embedding":
+            raise click.UsageError("--front-end embedding is for single words: it does not say where words lie")
         if data is None or transcripts is None:
             raise click.UsageError("connected takes --data DIR, of one word each, and --transcripts FILE")
-        evaluate_connected(data, transcripts, pattern, options, seed, json_path)
+        evaluate_connected(data, transcripts, pattern, options, front_end, embedding_path, seed, json_path)
         return
     refuse_given(("transcripts",), "is for connected")
     if mode == SENTENCES:

@@ -10,16 +10,17 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from hri.cli.connected import connected_embedding, connected_options
 from hri.cli.messages import note
 from hri.cli.output import say_table, write_json
 from hri.cli.progress import progress_bars
-from hri.cli.recognizers import load_dataset, naming_options, parse_options, refuse_chosen
+from hri.cli.recognizers import load_dataset, naming_options
 from hri.cli.transcripts import NamedRecordings, read_said
 from hri.core.errors import FormatError, InvalidArgument
 from hri.datasets import Dataset
 from hri.language import WordErrors, count_word_errors
 from hri.media import read_audio
-from hri.recognition import ConnectedWordRecognizer
+from hri.recognition import ConnectedWordRecognizer, SpeechEmbedding
 
 _OTHERS = "others"
 """Held out of nothing: recordings whose name has no person of the training data in it."""
@@ -35,13 +36,19 @@ class SpokenString:
 
 
 def evaluate_connected(
-    data: str, transcripts: str, pattern: str | None, options: tuple[str, ...], seed: int, json_path: str | None
+    data: str,
+    transcripts: str,
+    pattern: str | None,
+    options: tuple[str, ...],
+    front_end: str | None,
+    embedding_path: str | None,
+    seed: int,
+    json_path: str | None,
 ) -> None:
     """Train without each person who speaks connected words, count the errors in these, print and write them."""
-    fields = parse_options((f"words.seed={seed}", *options))
-    refuse_chosen(fields, "choose_penalty")
+    fields = connected_options(options, front_end, embedding_path, seed)
     with naming_options():
-        ConnectedWordRecognizer(**fields)
+        embedding = connected_embedding(ConnectedWordRecognizer(**fields), embedding_path)
     dataset = load_dataset(data, "speech", pattern)
     strings = read_strings(transcripts, dataset.persons)
     _tell_of_words(strings, dataset, transcripts)
@@ -51,7 +58,7 @@ def evaluate_connected(
     with progress_bars() as progress:
         for number, person in enumerate(persons):
             progress("speakers held out", number, len(persons))
-            recognizer = _trained_without(person, dataset, ConnectedWordRecognizer(**fields))
+            recognizer = _trained_without(person, dataset, ConnectedWordRecognizer(**fields), embedding)
             items = _recognised([string for string in strings if string.person == person], recognizer)
             errors = count_word_errors([item["words"] for item in items], [item["found"] for item in items])
             total += errors
@@ -107,7 +114,9 @@ def _tell_of_words(strings: Sequence[SpokenString], dataset: Dataset, path: str)
         )
 
 
-def _trained_without(person: str, dataset: Dataset, recognizer: ConnectedWordRecognizer) -> ConnectedWordRecognizer:
+def _trained_without(
+    person: str, dataset: Dataset, recognizer: ConnectedWordRecognizer, embedding: SpeechEmbedding | None
+) -> ConnectedWordRecognizer:
     samples = [sample for sample in dataset.samples if not person or sample.person != person]
     missing = sorted(set(dataset.labels) - {sample.label for sample in samples})
     if missing:
@@ -116,6 +125,7 @@ def _trained_without(person: str, dataset: Dataset, recognizer: ConnectedWordRec
         [read_audio(sample.path) for sample in samples],
         [sample.label for sample in samples],
         groups=[sample.person for sample in samples],
+        embedding=embedding,
     )
 
 

@@ -24,6 +24,7 @@ from hri.recognition import (
     ConnectedWordRecognizer,
     GestureRecognizer,
     SentenceRecognizer,
+    SpeechEmbedding,
     WordRecognizer,
     load,
 )
@@ -93,11 +94,12 @@ def _has_vision() -> bool:
 def _model(path: str, embedding_path: str | None) -> dict[str, Any]:
     file = _read(path)
     if file is not None and file.kind not in _OF_SINGLE:
-        refuse_given(("embedding_path",), "is for models of single words")
+        if file.kind != "connected_word_recognizer":
+            refuse_given(("embedding_path",), "is for models of words")
         if file.kind not in _OF_SEVERAL:
             return {"kind": file.kind, "metadata": dict(file.metadata())}
     kind = None if file is None else _OF_SEVERAL.get(file.kind)
-    recognizer = load(path, embedding=load_embedding(embedding_path)) if kind is None else KINDS[kind].load(path)
+    recognizer = _load(path, kind, load_embedding(embedding_path))
     labels = sorted((str(label) for label in recognizer.classes_), key=natural_key)
     found: dict[str, Any] = {"mode": kind or recognizer.mode, "labels": labels}
     if isinstance(recognizer, WordRecognizer | GestureRecognizer) and recognizer.held_out is not None:
@@ -112,6 +114,15 @@ def _model(path: str, embedding_path: str | None) -> dict[str, Any]:
             )
     trained = recognizer.trained_options if isinstance(recognizer, SentenceRecognizer) else recognizer.options
     return {**found, "options": trained.as_dict()}
+
+
+def _load(path: str, kind: str | None, embedding: SpeechEmbedding | None) -> Any:
+    """The recogniser in a file: of single words or gestures where `kind` is None."""
+    if kind is None:
+        return load(path, embedding=embedding)
+    if kind == "connected":
+        return ConnectedWordRecognizer.load(path, embedding=embedding)
+    return KINDS[kind].load(path)
 
 
 def _sentences(recognizer: ConnectedWordRecognizer) -> dict[str, Any]:

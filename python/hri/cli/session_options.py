@@ -209,11 +209,12 @@ class ChosenSession:
 
     def load_words(self) -> WordRecognizer | CommandRecognizer:
         """What recognises words, or commands of several words by a grammar, whose name and hash are part of the id."""
+        embedding = load_embedding(self.embedding_path)
         if self.grammar_path is None:
-            embedding = load_embedding(self.embedding_path)
             return WordRecognizer.load(self._named("speech", self.speech_model), embedding=embedding)
         grammar = Grammar.load(self.grammar_path)
-        words = self._load(ConnectedWordRecognizer, "speech", self.speech_model or connected_model())
+        named = self._named("speech", self.speech_model or connected_model())
+        words = ConnectedWordRecognizer.load(named, embedding=embedding)
         try:
             commands = CommandRecognizer(words, grammar, min_confidence=self.min_confidence)
         except InvalidArgument as error:
@@ -307,8 +308,8 @@ def session_options(command: Callable[..., None]) -> Callable[..., None]:
                 raise click.UsageError(f"{option} goes with {needed_option}")
         if bool(given["sentence_begin"]) != bool(given["sentence_end"]):
             raise click.UsageError("--sentence-begin and --sentence-end go together")
-        if given["grammar_path"] is not None or given["no_speech"]:
-            refuse_given(("embedding_path",), "is for single words, which --grammar and --no-speech leave out")
+        if given["no_speech"]:
+            refuse_given(("embedding_path",), "is for words, which --no-speech leaves out")
         if given["faces"] is not None and given["no_gesture"]:
             raise click.UsageError("--faces and --no-gesture exclude each other")
         if given["fusion_path"] is not None:

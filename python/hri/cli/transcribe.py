@@ -17,6 +17,7 @@ from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.live_screen import device_option, microphone, recording, stall_option
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json, write_text
+from hri.cli.recognizers import embedding_option, load_embedding
 from hri.cli.transcripts import EXIT_BAD_DATA, labels_of, lines_of_words, noting_faults, require_names_apart
 from hri.core.errors import InvalidArgument
 from hri.core.files import make_folder
@@ -25,7 +26,7 @@ from hri.language import Grammar
 from hri.live import AudioSource
 from hri.media import VIDEO_SUFFIXES
 from hri.recognition import ConnectedWordRecognizer, ConnectedWordStream, Transcript, UtteranceResult
-from hri.recognition.sentence.recognizer import UNKNOWN
+from hri.recognition.sentence.transcript import UNKNOWN
 
 SILENCE = "<sil>"
 """The word of silence in lattices."""
@@ -41,6 +42,7 @@ _SEARCH = ("grammar", "language", "no_grammar", "no_language")
     metavar="MODEL",
     help="A model from 'hri train-connected'; the default is the one kept per user.",
 )
+@embedding_option
 @click.option(
     "--words",
     type=click.IntRange(1, 1000),
@@ -95,6 +97,7 @@ _SEARCH = ("grammar", "language", "no_grammar", "no_language")
 def transcribe(
     files: tuple[str, ...],
     model: str | None,
+    embedding_path: str | None,
     words: int | None,
     grammar: str | None,
     language: str | None,
@@ -148,7 +151,8 @@ def transcribe(
         require_names_apart([_lattice_path(file, lattices) for file in files], files, "--lattices")
     if mlf is not None:
         require_names_apart([_label_path(file) for file in files], files, "--mlf")
-    recognizer = ConnectedWordRecognizer.load(connected_model() if model is None else model)
+    embedding = load_embedding(embedding_path)
+    recognizer = ConnectedWordRecognizer.load(connected_model() if model is None else model, embedding=embedding)
     _choose_sentences(recognizer, grammar, language, language_scale, no_grammar, no_language)
     if stream:
         sources: list[AudioSource] = [recording(file) for file in files] or [microphone(device, stall_s)]

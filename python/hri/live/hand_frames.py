@@ -16,7 +16,7 @@ from hri.core.errors import InvalidArgument
 from hri.live.frames import Frame
 from hri.recognition import GestureRecognizer, StreamedSign
 from hri.recognition.decision import UNKNOWN as REJECTED
-from hri.recognition.sentence.recognizer import UNKNOWN
+from hri.recognition.sentence.transcript import UNKNOWN
 from hri.vision.faces import face_finder
 from hri.vision.persons import Faces, PersonTracker
 

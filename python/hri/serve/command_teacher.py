@@ -6,8 +6,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from hri.core.phrases import Phrase, phrase
@@ -106,8 +104,8 @@ class CommandWordTeacher(SpokenTeacher):
         rows += self._said_again()
         rows += [row for label in added for row in self._voices(label)]
         clips, labels, speakers = map(list, zip(*rows, strict=True))
-        options = {**_loaded(words).options.as_dict(), "choose_penalty": False}
-        return ConnectedWordRecognizer(**options).fit(clips, labels, groups=speakers)
+        options = {**words.trained_options.as_dict(), "choose_penalty": False}
+        return ConnectedWordRecognizer(**options).fit(clips, labels, groups=speakers, embedding=words.embedding)
 
     def samples(self) -> list[tuple[Audio, str, str]]:
         """What the words in use were trained on beside ``Stage.recordings``: clip, word, and who or what said it.
@@ -137,10 +135,3 @@ class CommandWordTeacher(SpokenTeacher):
         before = self._commands_of(self._before[-1])  # refused while the grammar has the word
         self._before.pop()
         self._stage.words = before
-
-
-def _loaded(words: ConnectedWordRecognizer) -> ConnectedWordRecognizer:
-    """The same with what training chose for options: one that was trained in this process has those it was given."""
-    with TemporaryDirectory(prefix="hri-serve-") as folder:
-        words.save(Path(folder) / "words.hri")
-        return ConnectedWordRecognizer.load(Path(folder) / "words.hri")

@@ -12,7 +12,7 @@ from hri.core.phrases import Phrase, phrase
 from hri.fusion import ASK
 from hri.language import KnowledgeBase, StoredMatch, StoredSentence
 from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN
-from hri.recognition.sentence.recognizer import UNKNOWN as UNKNOWN_WORD
+from hri.recognition.sentence.transcript import UNKNOWN as UNKNOWN_WORD
 from hri.session.options import SessionOptions
 from hri.session.pairing import Pair
 

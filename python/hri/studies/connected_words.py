@@ -3,7 +3,7 @@
 """Connected digits: strings joined from isolated recordings of one speaker, who was not trained on.
 
 English and Hindi digits; in noise, by a bigram, by a grammar, with words that are not in the vocabulary, and by
-possibility-theory HMMs.
+possibility-theory HMMs; by cepstra, and by the pretrained speech embedding as well.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,11 +21,14 @@ from numpy.typing import NDArray
 from hri.language import Grammar, NGramModel, WordErrors, count_word_errors
 from hri.recognition import ConnectedWordRecognizer, Transcript, WordRecognizer
 from hri.recognition.base import best_labels
+from hri.recognition.keywords import WordRecognizerKeywords
 from hri.signal import ActivityOptions, find_speech
 from hri.studies.clips import Clip, read_clips
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
 from hri.studies.tables import Row, further_statistics, statistics
 from hri.studies.word_features import WORD_FOLDERS
+
+FrontEndKind = Literal["cepstra", "both"]
 
 PAUSES_MS = (0, 100, 300)
 MAX_DIGITS = 7
@@ -201,9 +204,9 @@ def _close(string: DigitString, found: Transcript, rule: str = "times") -> list[
     ]
 
 
-def _isolated(train: Sequence[Clip], test: Sequence[Clip]) -> float:
+def _isolated(train: Sequence[Clip], test: Sequence[Clip], front_end: FrontEndKind) -> float:
     """The error of `WordRecognizer` on single clips, rejected or not."""
-    words = WordRecognizer(front_end="cepstra").fit(
+    words = WordRecognizer(front_end=front_end).fit(
         [sound for _, _, sound in train],
         [label for label, _, _ in train],
         groups=[person for _, person, _ in train],
@@ -250,8 +253,11 @@ class Measured:
         self.counts[key] = self.counts.get(key, WordErrors()) + counted
 
 
-def fit_connected(train: Sequence[Clip], progress: Progress, **options: Any) -> ConnectedWordRecognizer:
-    return ConnectedWordRecognizer(**options).fit(
+def fit_connected(
+    train: Sequence[Clip], progress: Progress, words: WordRecognizerKeywords, **options: Any
+) -> ConnectedWordRecognizer:
+    """By options of isolated words, and others."""
+    return ConnectedWordRecognizer(words=words, **options).fit(
         [sound for _, _, sound in train],
         [label for label, _, _ in train],
         groups=[who for _, who, _ in train],
@@ -290,16 +296,26 @@ def _measure(measured: Measured, person: str, test: Sequence[Clip], recognizer: 
 
 
 def _measure_possibilities(
-    measured: Measured, person: str, train: Sequence[Clip], test: Sequence[Clip], progress: Progress
+    measured: Measured,
+    person: str,
+    train: Sequence[Clip],
+    test: Sequence[Clip],
+    front_end: FrontEndKind,
+    progress: Progress,
 ) -> None:
     """The same densities as possibilities over codewords."""
-    model = fit_connected(train, progress, words={"model": "ptbhmm"})
+    model = fit_connected(train, progress, {"model": "ptbhmm", "front_end": front_end})
     for pause_ms in PAUSES_MS:
         measured.add(pause_ms, POSSIBILISTIC, person, strings_of(test, pause_ms), _by(model, test[0][2].sample_rate_hz))
 
 
 def _measure_unknown(
-    measured: Measured, person: str, train: Sequence[Clip], test: Sequence[Clip], progress: Progress
+    measured: Measured,
+    person: str,
+    train: Sequence[Clip],
+    test: Sequence[Clip],
+    front_end: FrontEndKind,
+    progress: Progress,
 ) -> None:
     """The last words of the vocabulary are not trained on, and said; then all are known."""
     unknown = sorted({label for label, _, _ in test})[-NUM_UNKNOWN:]
@@ -311,28 +327,32 @@ def _measure_unknown(
         for s in strings_of(test, longest)
     ]
     for words, is_on in ((MISSED, False), (UNKNOWN, True)):
-        model = fit_connected(known, progress, unknown_words=is_on)
+        model = fit_connected(known, progress, {"front_end": front_end}, unknown_words=is_on)
         measured.add(longest, words, person, strings, _by(model, rate_hz))
-    rejecting = fit_connected(train, progress, unknown_words=True)
+    rejecting = fit_connected(train, progress, {"front_end": front_end}, unknown_words=True)
     for pause_ms in (min(PAUSES_MS), longest):
         measured.add(pause_ms, REJECTING, person, strings_of(test, pause_ms), _by(rejecting, rate_hz))
 
 
-def _run(data_dir: Path, progress: Progress, *, source: str, takes: int | None = None) -> dict[str, Any]:
+def _run(
+    data_dir: Path, progress: Progress, *, source: str, front_end: FrontEndKind, takes: int | None = None
+) -> dict[str, Any]:
     clips = read_clips(data_dir, source, progress, takes)
     isolated: dict[str, float] = {}
     measured = Measured()
     penalties: dict[str, float] = {}
+    weights: dict[str, float] = {}
     for person in sorted({person for _, person, _ in clips}):
         train = [clip for clip in clips if clip[1] != person]
         test = [clip for clip in clips if clip[1] == person]
         part = within(progress, person)
-        isolated[person] = _isolated(train, test)
-        recognizer = fit_connected(train, part)
+        isolated[person] = _isolated(train, test, front_end)
+        recognizer = fit_connected(train, part, {"front_end": front_end})
         penalties[person] = recognizer.insertion_penalty
+        weights[person] = recognizer.trained_options.words.embedding_weight
         _measure(measured, person, test, recognizer)
-        _measure_unknown(measured, person, train, test, part)
-        _measure_possibilities(measured, person, train, test, part)
+        _measure_unknown(measured, person, train, test, front_end, part)
+        _measure_possibilities(measured, person, train, test, front_end, part)
     rows = [_row("", ISOLATED, isolated)]
     rows += [_row(*key, measured.errors[key], measured.times[key]) for key in measured.errors]
     most = max(PAUSES_MS)
@@ -341,24 +361,26 @@ def _run(data_dir: Path, progress: Progress, *, source: str, takes: int | None =
     placed = min(statistics(measured.times[most, LOOP][rule])["accuracy_mean"] for rule in ("times", "level_times"))
     return {
         "seed": SEED,
-        "options": ConnectedWordRecognizer().options.as_dict(),
+        "options": ConnectedWordRecognizer(words={"front_end": front_end}).options.as_dict(),
         "insertion_penalty": penalties,
+        **({"embedding_weight": weights} if front_end == "both" else {}),
         "counts": {f"{pause_ms} ms, {words}": vars(counted) for (pause_ms, words), counted in measured.counts.items()},
         "rows": rows,
         "passed": bool(loop <= alone + 0.02 and placed >= 0.95),
     }
 
 
-def _study(name: str, source: str, what: str) -> Study:
+def _study(name: str, source: str, what: str, front_end: FrontEndKind = "cepstra") -> Study:
+    by = {"cepstra": "", "both": ", by cepstra and a pretrained speech embedding (extra embedding)"}[front_end]
     return Study(
         name,
         f"{what} in strings of 1 to 7, joined with pauses of 0, 100 and 300 ms, each of 4 speakers held out, in noise, "
         "by a bigram, by a grammar, with words that were not trained on, and by PTBHMMs: word errors and word times, "
-        "beside the errors on isolated digits",
+        f"beside the errors on isolated digits{by}",
         (WORD_FOLDERS[source],),
         "with pauses of 300 ms and any number of words, a word error rate at most 2 points above that of isolated "
         "digits, and 95 % of the beginnings and ends of words within 50 ms, by end points and by level",
-        partial(_run, source=source),
+        partial(_run, source=source, front_end=front_end),
         Layout(columns="words", measure="word_error"),
         thins=True,
         sources=(
@@ -371,5 +393,7 @@ def _study(name: str, source: str, what: str) -> Study:
 
 STUDIES = (
     _study("connected-digits", "fsdd", "English digits (FSDD)"),
+    _study("connected-digits-both", "fsdd", "English digits (FSDD)", "both"),
     _study("connected-hindi", "hindi-digits", "Hindi digits"),
+    _study("connected-hindi-both", "hindi-digits", "Hindi digits", "both"),
 )

@@ -20,7 +20,7 @@ from hri.recognition import CommandRecognizer, ConnectedWordRecognizer
 from hri.recognition.decision import NO_INPUT, UNKNOWN
 from hri.recognition.sentence.commands import MIN_CONFIDENCE
 from hri.studies.clips import Clip
-from hri.studies.connected_words import DigitString, join_clips, with_noise
+from hri.studies.connected_words import DigitString, FrontEndKind, join_clips, with_noise
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
 from hri.studies.tables import Row, statistics
 from hri.studies.word_features import first_takes
@@ -98,7 +98,8 @@ def _rows(heard: Sequence[Heard], chosen: Mapping[str, float]) -> list[Row]:
 class _Study:
     """Recordings, and recognisers of commands trained on some of the people."""
 
-    def __init__(self, clips: Sequence[Clip]) -> None:
+    def __init__(self, clips: Sequence[Clip], front_end: FrontEndKind) -> None:
+        self.front_end = front_end
         self.grammar = Grammar.parse(GRAMMAR, "commands.jsgf")
         self.clips = clips
         self.people = sorted({person for _, person, _ in clips})
@@ -106,7 +107,7 @@ class _Study:
     def trained(self, people: set[str], progress: Progress) -> CommandRecognizer:
         """A recogniser of commands that has met these people only."""
         train = [clip for clip in self.clips if clip[1] in people and clip[0] in self.grammar.words]
-        words = ConnectedWordRecognizer(max_words=4, unknown_words=True).fit(
+        words = ConnectedWordRecognizer(words={"front_end": self.front_end}, max_words=4, unknown_words=True).fit(
             [sound for _, _, sound in train],
             [label for label, _, _ in train],
             groups=[person for _, person, _ in train],
@@ -136,9 +137,9 @@ class _Study:
         return found
 
 
-def _run(data_dir: Path, progress: Progress, *, takes: int | None = None) -> dict[str, Any]:
+def _run(data_dir: Path, progress: Progress, *, front_end: FrontEndKind, takes: int | None = None) -> dict[str, Any]:
     dataset = first_takes(Dataset.load(data_dir / FOLDER, "speech"), takes)
-    study = _Study([(s.label, s.person, read_audio(s.path)) for s in dataset.samples])
+    study = _Study([(s.label, s.person, read_audio(s.path)) for s in dataset.samples], front_end)
     parts = [set(study.people[fold::NUM_FOLDS]) for fold in range(NUM_FOLDS)]
     heard: list[Heard] = []
     inner: list[list[Heard]] = [[] for _ in parts]
@@ -169,15 +170,15 @@ def _run(data_dir: Path, progress: Progress, *, takes: int | None = None) -> dic
     }
 
 
-STUDIES = (
-    Study(
-        "robot-commands",
+def _study(name: str, front_end: FrontEndKind, by: str = "") -> Study:
+    return Study(
+        name,
         "19 commands with slots, such as forward three or right up two, joined from Arabic words of 24 people with "
         "pauses of 200 ms, a third of the people held out in turn: whether all slots are right; and how many of their "
-        "other words, said by themselves, are accepted as a command",
+        f"other words, said by themselves, are accepted as a command{by}",
         (FOLDER,),
         "all slots right in 90 % of the commands in quiet, by the default min_confidence",
-        _run,
+        partial(_run, front_end=front_end),
         Layout(columns="condition", measure="accuracy"),
         thins=True,
         sources=(
@@ -185,5 +186,10 @@ STUDIES = (
             "cpp/language",
             "cpp/recognition/sentence",
         ),
-    ),
+    )
+
+
+STUDIES = (
+    _study("robot-commands", "cepstra"),
+    _study("robot-commands-both", "both", "; by cepstra and a pretrained speech embedding (extra embedding)"),
 )

@@ -82,7 +82,7 @@ def _run(data_dir: Path, progress: Progress, *, data: Sequence[str] = DATA, take
             recorded = [clip for clip in clips if clip[1] != person]
             test = [clip for clip in clips if clip[1] == person]
             for method in METHODS:
-                model = fit_connected(_train(method, recorded, spoken, added), within(say, f"{person}, {method}"))
+                model = fit_connected(_train(method, recorded, spoken, added), within(say, f"{person}, {method}"), {})
                 found[method][person] = _measured(model, test, added)
         rows += [_row(name, method, found[method]) for method in METHODS]
     errors = {(row["data"], row["method"]): row["errors_by_grammar_mean"] for row in rows}

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """From a folder of labelled recordings to a trained recogniser: what ``hri train`` does, and `hri.train` in Python."""
 
-from hri.training.choices import NETWORK_MIN_PERSONS, Choice, choose_options
+from hri.training.choices import NETWORK_MIN_PERSONS, Choice, choose_options, has_embedding
 from hri.training.noisy_copies import SNRS_DB, in_noise
 from hri.training.train import Progress, fillers_of, train
 
@@ -13,6 +13,7 @@ __all__ = [
     "Progress",
     "choose_options",
     "fillers_of",
+    "has_embedding",
     "in_noise",
     "train",
 ]

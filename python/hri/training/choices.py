@@ -65,7 +65,7 @@ def choose_options(
         source, why = choose_source(dataset)
         return Choice({"source": source}, why)
     chosen: dict[str, Any] = {}
-    if "front_end" not in given and _has_embedding():
+    if "front_end" not in given and has_embedding():
         chosen["front_end"] = "both"
     front_end = WordRecognizer(**{**given, **chosen}).options.front_end
     persons = len(dataset.persons) if num_persons is None else num_persons
@@ -74,7 +74,8 @@ def choose_options(
     return Choice(chosen)
 
 
-def _has_embedding() -> bool:
+def has_embedding() -> bool:
+    """Whether the extra `embedding` is installed."""
     try:
         embedding_weights()
     except ImportError:

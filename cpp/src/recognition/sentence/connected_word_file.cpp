@@ -8,6 +8,7 @@
 #include "hri/recognition/sentence/connected_word_recognizer.hpp"
 #include "io/option_fields.hpp"
 #include "recognition/reading.hpp"
+#include "recognition/sentence/embedding_rescorer.hpp"
 
 namespace hri {
 namespace {
@@ -16,6 +17,9 @@ constexpr const char* kConnectedKind = "connected_word_recognizer";
 constexpr const char* kLanguageEntry = "language";
 constexpr const char* kGrammar = "grammar";
 constexpr const char* kCodebookEntry = "codebook.";
+constexpr const char* kEmbeddedWords = "embedded_words.";
+constexpr const char* kWeights = "embedding.checksum";
+constexpr const char* kEmbeddingOptions = "embedding.";
 constexpr const char* kNumFillers = "num_fillers";
 constexpr std::int64_t kMaxFillers = 10000;
 
@@ -36,6 +40,20 @@ FillerModels read_fillers(const ModelFile& file) {
   return fillers;
 }
 
+// With the embedding as it was in training: of the same weights, and with the options it had.
+EmbeddedWords read_embedded(const ModelFile& file, const SpeechEmbedding* given) {
+  const std::string& weights = file.text(kWeights);
+  if (given == nullptr || given->checksum() != weights) {
+    fail(ErrorKind::format, file.name() + ": was trained with a speech embedding of the weights " +
+                                weights + ", these are " +
+                                (given == nullptr ? "none" : given->checksum()));
+  }
+  SpeechEmbeddingOptions trained;
+  detail::read_options(file, &trained, kEmbeddingOptions);
+  return {std::make_shared<const SpeechEmbedding>(given->with_options(trained)),
+          SoftmaxRegression::read(file, kEmbeddedWords)};
+}
+
 }  // namespace
 
 ModelFile ConnectedWordRecognizer::to_model_file() const {
@@ -51,6 +69,11 @@ ModelFile ConnectedWordRecognizer::to_model_file() const {
       fillers_->models()[static_cast<std::size_t>(f)].write(file, filler_entry(f));
   }
   if (possibilities_ != nullptr) possibilities_->codebook().write(file, kCodebookEntry);
+  if (rescorer_ != nullptr) {
+    file.set_text(kWeights, rescorer_->words().embedding->checksum());
+    detail::write_options(rescorer_->words().embedding->options(), file, kEmbeddingOptions);
+    rescorer_->words().classifier.write(file, kEmbeddedWords);
+  }
   if (language_ != nullptr) file.set_text(kLanguageEntry, language_->to_arpa());
   if (grammar_ != nullptr) file.set_text(kGrammar, grammar_->text());
   return file;
@@ -58,19 +81,27 @@ ModelFile ConnectedWordRecognizer::to_model_file() const {
 
 void ConnectedWordRecognizer::save(const std::string& path) const { to_model_file().write(path); }
 
-ConnectedWordRecognizer ConnectedWordRecognizer::load(const std::string& path) {
-  return from_model_file(ModelFile::read(path));
+ConnectedWordRecognizer ConnectedWordRecognizer::load(
+    const std::string& path, std::shared_ptr<const SpeechEmbedding> embedding) {
+  return from_model_file(ModelFile::read(path), std::move(embedding));
 }
 
-ConnectedWordRecognizer ConnectedWordRecognizer::from_model_file(const ModelFile& file) {
+ConnectedWordRecognizer ConnectedWordRecognizer::from_model_file(
+    const ModelFile& file, std::shared_ptr<const SpeechEmbedding> embedding) {
   if (file.kind() != kConnectedKind) {
     fail(ErrorKind::format,
          file.name() + ": kind is '" + file.kind() + "', expected '" + kConnectedKind + "'");
   }
-  return detail::with_context(file, [&] { return read(file); });
+  if (file.has(kWeights) && embedding == nullptr) {
+    fail(ErrorKind::invalid_argument,
+         file.name() + ": was trained with a speech embedding of the weights " +
+             file.text(kWeights) + ", which it needs to recognise: give their file");
+  }
+  return detail::with_context(file, [&] { return read(file, embedding); });
 }
 
-ConnectedWordRecognizer ConnectedWordRecognizer::read(const ModelFile& file) {
+ConnectedWordRecognizer ConnectedWordRecognizer::read(
+    const ModelFile& file, const std::shared_ptr<const SpeechEmbedding>& embedding) {
   ConnectedWordRecognizerOptions options;
   detail::read_options(file, &options);
   std::vector<std::string> labels = file.text_list("labels");
@@ -81,8 +112,10 @@ ConnectedWordRecognizer ConnectedWordRecognizer::read(const ModelFile& file) {
   std::optional<MultiStreamCodebook> codebook;
   if (options.words.model == SequenceModelKind::ptbhmm)
     codebook = MultiStreamCodebook::read(file, kCodebookEntry);
+  std::optional<EmbeddedWords> embedded;
+  if (has_embedding(options.words.front_end)) embedded = read_embedded(file, embedding.get());
   ConnectedWordRecognizer result(options, std::move(labels), std::move(models), final_stays,
-                                 std::move(codebook), read_fillers(file));
+                                 std::move(codebook), read_fillers(file), std::move(embedded));
   if (file.has(kLanguageEntry)) {
     result = result.with_language(
         NGramModel::parse(file.text(kLanguageEntry), file.name() + ": language"));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hri/core/error.hpp"
+#include "recognition/sentence/embedding_rescorer.hpp"
 #include "recognition/sentence/sentence_front_end.hpp"
 #include "recognition/sentence/unknown_word.hpp"
 #include "recognition/sentence/word_times.hpp"
@@ -24,7 +25,8 @@ ConnectedWordRecognizerOptions with_rate(ConnectedWordRecognizerOptions options)
 }  // namespace
 
 const char* ConnectedWordRecognizerOptions::conflict() const {
-  if (words.front_end != FrontEndKind::cepstra) return "words.front_end must be cepstra";
+  if (words.front_end == FrontEndKind::embedding)
+    return "words.front_end must be cepstra or both: an embedding does not say where words lie";
   if (words.use_network) return "words.use_network must be false";
   return nullptr;
 }
@@ -43,7 +45,8 @@ ConnectedWordRecognizer::ConnectedWordRecognizer(const ConnectedWordRecognizerOp
                                                  std::vector<GaussianMixtureHmm> models,
                                                  const VectorD& final_stays,
                                                  std::optional<MultiStreamCodebook> codebook,
-                                                 FillerModels fillers)
+                                                 FillerModels fillers,
+                                                 std::optional<EmbeddedWords> embedded)
     : options_(with_rate(validated(options))),
       labels_(std::move(labels)),
       final_stays_(final_stays),
@@ -69,6 +72,16 @@ ConnectedWordRecognizer::ConnectedWordRecognizer(const ConnectedWordRecognizerOp
     if (fillers_ != nullptr)
       filler_possibilities_ = std::make_shared<const CodedPossibilities>(*fillers_, *codebook);
     possibilities_ = std::make_shared<const CodedPossibilities>(*emissions_, std::move(*codebook));
+  }
+  require(embedded.has_value() == has_embedding(options_.words.front_end),
+          "there must be a speech embedding exactly where words.front_end is both");
+  if (embedded.has_value()) {
+    require(embedded->embedding != nullptr, "the speech embedding is missing");
+    const int beyond = embedded->classifier.num_classes() - static_cast<int>(labels_.size());
+    require(embedded->classifier.dim() == embedded->embedding->vector_size() &&
+                (beyond == 0 || beyond == 1),
+            "the classifier does not fit the speech embedding and the labels");
+    rescorer_ = std::make_shared<const detail::EmbeddingRescorer>(std::move(*embedded));
   }
   for (std::size_t m = 0; m < num_models; ++m) {
     WordChain chain = WordChain::of(
@@ -104,6 +117,13 @@ ConnectedWordRecognizer ConnectedWordRecognizer::with_decoder(
   return result;
 }
 
+ConnectedWordRecognizer ConnectedWordRecognizer::with_embedding_weight(double weight) const {
+  ConnectedWordRecognizer result = *this;
+  result.options_.words.embedding_weight = weight;
+  validate(result.options_);
+  return result;
+}
+
 WordNetwork ConnectedWordRecognizer::network(int num_words) const {
   const auto num_labels = static_cast<int>(labels_.size());
   if (num_words != 0) return WordNetwork::sequence(num_labels, num_words, silence());
@@ -127,9 +147,24 @@ double ScoredRecording::seconds_of(std::int64_t frame) const {
 }
 
 ScoredRecording ConnectedWordRecognizer::score(Span<const float> audio, int sample_rate_hz) const {
+  std::vector<float> recorded;
+  ScoredRecording recording = score_cepstra(audio, sample_rate_hz, &recorded);
+  if (rescorer_ == nullptr || recording.log_emissions.rows() == 0) return recording;
+  detail::EmbeddingRescorer::rescore(spans_of(recording, recorded), options_.words.embedding_weight,
+                                     chains_, &recording.log_emissions);
+  return recording;
+}
+
+ScoredRecording ConnectedWordRecognizer::score_begun(Span<const float> audio,
+                                                     int sample_rate_hz) const {
+  return score_cepstra(audio, sample_rate_hz, nullptr);
+}
+
+ScoredRecording ConnectedWordRecognizer::score_cepstra(Span<const float> audio, int sample_rate_hz,
+                                                       std::vector<float>* recorded) const {
   MatrixF fillers;
   ScoredRecording recording =
-      score_models(audio, sample_rate_hz, options_.unknown_words ? &fillers : nullptr);
+      score_models(audio, sample_rate_hz, options_.unknown_words ? &fillers : nullptr, recorded);
   MatrixF& scores = recording.log_emissions;
   if (!options_.unknown_words || scores.rows() == 0) return recording;
   const VectorF unknown =
@@ -142,8 +177,40 @@ ScoredRecording ConnectedWordRecognizer::score(Span<const float> audio, int samp
   return recording;
 }
 
+std::vector<detail::RescoredSpan> ConnectedWordRecognizer::spans_of(
+    const ScoredRecording& recording, Span<const float> recorded) const {
+  const MatrixF& scores = recording.log_emissions;
+  ConnectedDecoder decoder(chains_, any_words(), options_.decoder);
+  for (Eigen::Index t = 0; t < scores.rows(); ++t) decoder.push(row_span(scores, t));
+  std::vector<DecodedWord> words = decoder.finish().words;
+  words.erase(std::remove_if(words.begin(), words.end(),
+                             [this](const DecodedWord& w) { return w.model == silence(); }),
+              words.end());
+  const std::vector<TranscribedWord> timed = words_of(words, recording);
+  const int rate_hz = front_end_->sample_rate_hz();
+  const auto sample_of = [&](double time_s) {
+    return static_cast<std::ptrdiff_t>((time_s - recording.activity_first_s) * rate_hz);
+  };
+  std::vector<detail::RescoredSpan> spans;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const VectorF named = rescorer_->scores(recorded, rate_hz, sample_of(timed[i].first_s),
+                                            sample_of(timed[i].last_s));
+    const bool names_unknown = options_.unknown_words && named.size() > silence();
+    if (words[i].model == unknown_word() && !names_unknown) continue;
+    VectorF log_odds = VectorF::Zero(static_cast<Eigen::Index>(chains_.size()));
+    log_odds.head(silence()) = named.head(silence());
+    float best = named.head(silence()).maxCoeff();
+    if (names_unknown) best = std::max(best, named[silence()]);
+    log_odds.head(silence()).array() -= best;
+    if (names_unknown) log_odds[unknown_word()] = named[silence()] - best;
+    spans.push_back({words[i].first_frame, words[i].last_frame, std::move(log_odds)});
+  }
+  return spans;
+}
+
 ScoredRecording ConnectedWordRecognizer::score_models(Span<const float> audio, int sample_rate_hz,
-                                                      MatrixF* fillers) const {
+                                                      MatrixF* fillers,
+                                                      std::vector<float>* recorded) const {
   detail::CutSentence sentence = front_end_->cut(audio, sample_rate_hz);
   ScoredRecording recording;
   recording.notes = std::move(sentence.notes);
@@ -155,6 +222,7 @@ ScoredRecording ConnectedWordRecognizer::score_models(Span<const float> audio, i
   if (sentence.samples.empty()) return recording;
   recording.activity = times_->frames(sentence.recorded);
   recording.activity_first_s = static_cast<double>(sentence.recorded_offset) / rate_hz;
+  if (recorded != nullptr) *recorded = std::move(sentence.recorded);
   const MatrixF frames = front_end_->frames(std::move(sentence.samples));
   recording.log_emissions.resize(frames.rows(), emissions_->num_states());
   if (possibilities_ != nullptr) {
@@ -170,6 +238,10 @@ ScoredRecording ConnectedWordRecognizer::score_models(Span<const float> audio, i
     fillers_->compute(frames, *fillers);
   }
   return recording;
+}
+
+std::shared_ptr<const SpeechEmbedding> ConnectedWordRecognizer::embedding() const {
+  return rescorer_ == nullptr ? nullptr : rescorer_->words().embedding;
 }
 
 std::vector<bool> ConnectedWordRecognizer::states_of_words() const {

@@ -97,7 +97,7 @@ void ConnectedWordStream::search_so_far(std::vector<ConnectedWordResult>* result
                                   sample_rate_hz_);
   if (length_ms < kShortestMs) return;
   ConnectedWordResult result;
-  const ScoredRecording scored = recognizer_.score(kept(first, now), sample_rate_hz_);
+  const ScoredRecording scored = recognizer_.score_begun(kept(first, now), sample_rate_hz_);
   if (scored.log_emissions.rows() == 0) return;
   std::size_t num_decided = 0;
   result.transcript = recognizer_.recognise_begun(scored, &num_decided);

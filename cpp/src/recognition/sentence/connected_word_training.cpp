@@ -17,6 +17,7 @@
 #include "recognition/sentence/held_out_choices.hpp"
 #include "recognition/sentence/sentence_training.hpp"
 #include "recognition/sentence/training_strings.hpp"
+#include "recognition/sentence/word_vectors.hpp"
 
 namespace hri {
 namespace {
@@ -27,9 +28,11 @@ using detail::WordString;
 
 constexpr int kMostFolds = 4;
 constexpr int kOfNoFold = -1;
+constexpr int kOfAllFolds = -2;  // fillers, of which no person is held out
 constexpr int kDefaultRateHz = 16000;
 constexpr int kSpeakersPerMixture = 2;
 constexpr int kMaxMixtures = 4;
+constexpr double kUsualWeight = 20;              // of the embedding, where nothing can be held out
 constexpr Eigen::Index kMaxCodedFrames = 20000;  // that codebooks of a column each are trained on
 
 // The models of a training, before they are a recogniser.
@@ -37,6 +40,7 @@ struct TrainedWords {
   std::vector<GaussianMixtureHmm> models;
   VectorD final_stays;
   std::optional<MultiStreamCodebook> codebook;  // of the kind ptbhmm
+  std::optional<EmbeddedWords> embedded;        // of the front end both
 };
 
 // Frames at even distances, of all sequences one behind the other: as many as codebooks need.
@@ -89,10 +93,12 @@ class Aligner {
 class ConnectedWordTrainer {
  public:
   ConnectedWordTrainer(const ConnectedWordRecognizerOptions& options,
-                       std::vector<std::string> labels, StopCheck should_stop)
+                       std::vector<std::string> labels,
+                       std::shared_ptr<const SpeechEmbedding> embedding, StopCheck should_stop)
       : options_(options),
         labels_(std::move(labels)),
         maker_(options),
+        embedding_(std::move(embedding)),
         should_stop_(std::move(should_stop)) {}
 
   ConnectedWordRecognizer run(const std::vector<WordSample>& samples,
@@ -104,6 +110,11 @@ class ConnectedWordTrainer {
     if (progress) progress(0, num_steps);
     if (options_.unknown_words && !fillers.empty())
       fillers_ = fillers_of(fillers, options_, should_stop_);
+    if (embedding_ != nullptr) {
+      vectors_.emplace(embedding_, options_.words);
+      vectors_->add(words_, maker_, should_stop_);
+      if (options_.unknown_words) vectors_->add(read_others(fillers), maker_, should_stop_);
+    }
     const std::vector<Fold> folds = train_folds(num_folds, num_steps, progress);
     TrainedWords all = train_without(kOfNoFold);
     if (!folds.empty()) choose(folds, all);
@@ -122,9 +133,10 @@ class ConnectedWordTrainer {
                                  ConnectedWordRecognizerOptions options,
                                  const StopCheck& should_stop) {
     options.words.model = SequenceModelKind::hmm;  // possibilities come of its densities
+    options.words.front_end = FrontEndKind::cepstra;
     std::set<std::string> labels;
     for (const WordSample& sample : samples) labels.insert(sample.label);
-    ConnectedWordTrainer trainer(options, {labels.begin(), labels.end()}, should_stop);
+    ConnectedWordTrainer trainer(options, {labels.begin(), labels.end()}, nullptr, should_stop);
     trainer.read(samples);
     FillerModels models = trainer.train_without(kOfNoFold).models;
     models.pop_back();  // that of silence
@@ -133,18 +145,34 @@ class ConnectedWordTrainer {
 
   // Words without speech are left out, but every label needs one.
   void read(const std::vector<WordSample>& samples) {
-    words_.resize(samples.size());
-    detail::parallel_for(samples.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
-      read_one(samples[i], &words_[i]);
-    });
-    words_.erase(std::remove_if(words_.begin(), words_.end(),
-                                [](const SpokenWord& word) { return word.first == word.last; }),
-                 words_.end());
+    words_ = spoken(samples, [this](const WordSample& s) { return label_index(labels_, s.label); });
     for (std::size_t c = 0; c < labels_.size(); ++c) {
       if (!has_label(static_cast<int>(c), kOfNoFold))
         fail(ErrorKind::invalid_argument,
              "no recording of the label '" + labels_[c] + "' has speech in it");
     }
+  }
+
+  // Words outside the vocabulary, all of one class behind those of the labels.
+  [[nodiscard]] std::vector<SpokenWord> read_others(const std::vector<WordSample>& samples) const {
+    std::vector<SpokenWord> words =
+        spoken(samples, [this](const WordSample&) { return silence(); });
+    for (SpokenWord& word : words) word.fold = kOfAllFolds;
+    return words;
+  }
+
+  template <class LabelOf>
+  [[nodiscard]] std::vector<SpokenWord> spoken(const std::vector<WordSample>& samples,
+                                               const LabelOf& label_of) const {
+    std::vector<SpokenWord> words(samples.size());
+    detail::parallel_for(samples.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
+      read_one(samples[i], &words[i]);
+      words[i].label = label_of(samples[i]);
+    });
+    words.erase(std::remove_if(words.begin(), words.end(),
+                               [](const SpokenWord& word) { return word.first == word.last; }),
+                words.end());
+    return words;
   }
 
   void read_one(const WordSample& sample, SpokenWord* word) const {
@@ -161,7 +189,6 @@ class ConnectedWordTrainer {
     if (!bounds.found) return;
     word->first = bounds.first;
     word->last = bounds.last;
-    word->label = label_index(labels_, sample.label);
     word->group = sample.group;
   }
 
@@ -205,6 +232,7 @@ class ConnectedWordTrainer {
     TrainedWords trained = train_models(sequences_of(words, nullptr));
     for (int i = 0; i < options_.num_alignments; ++i)
       trained = train_models(sequences_of(words, &trained));
+    if (vectors_) trained.embedded = vectors_->train_without(fold, should_stop_);
     return trained;
   }
 
@@ -286,7 +314,8 @@ class ConnectedWordTrainer {
             std::move(trained.models),
             trained.final_stays,
             std::move(trained.codebook),
-            fillers_};
+            fillers_,
+            std::move(trained.embedded)};
   }
 
   // What is to be chosen with, without the unknown word.
@@ -316,10 +345,11 @@ class ConnectedWordTrainer {
 
   // The rest, with this penalty; `all` are the models that know all speakers.
   void choose(const std::vector<Fold>& folds, const TrainedWords& all) {
+    if (embedding_ != nullptr && options_.words.embedding_weight == 0) choose_weight(folds);
     detail::HeldOutChoices choices(should_stop_);
     const ConnectedWordRecognizer of_all = recognizer(options_of_folds(), all);
     for (const auto& [trained, strings] : folds) {
-      choices.try_scales(trained.with_decoder(options_.decoder), strings);
+      choices.try_scales(as_chosen(trained), strings);
       if (!options_.unknown_words) continue;
       choices.add_leads(trained, strings, true);
       choices.add_leads(of_all, strings, false);
@@ -328,11 +358,25 @@ class ConnectedWordTrainer {
     if (choices.expected_lead() > 0) options_.unknown_lead = choices.expected_lead();
   }
 
+  void choose_weight(const std::vector<Fold>& folds) {
+    detail::HeldOutChoices choices(should_stop_);
+    for (const auto& [trained, strings] : folds) choices.try_weights(as_chosen(trained), strings);
+    options_.words.embedding_weight = choices.best_weight();
+  }
+
+  // A model of a fold with what was chosen so far.
+  [[nodiscard]] ConnectedWordRecognizer as_chosen(const ConnectedWordRecognizer& trained) const {
+    return trained.with_decoder(options_.decoder)
+        .with_embedding_weight(options_.words.embedding_weight);
+  }
+
   ConnectedWordRecognizerOptions options_;
   std::vector<std::string> labels_;
   StringMaker maker_;
+  std::shared_ptr<const SpeechEmbedding> embedding_;  // nullptr: cepstra alone
   StopCheck should_stop_;
   std::vector<SpokenWord> words_;
+  std::optional<detail::WordVectors> vectors_;  // with an embedding
   FillerModels fillers_;
 };
 
@@ -344,10 +388,14 @@ const char* without_effect(const WordRecognizerOptions& words) {
     return "words.garbage_mixtures has no effect";
   if (words.false_reject_rate != usual.false_reject_rate)
     return "words.false_reject_rate has no effect; min_confidence and unknown_margin have";
-  if (words.num_embedding_copies != usual.num_embedding_copies)
-    return "words.num_embedding_copies has no effect";
-  if (words.embedding_penalty != usual.embedding_penalty)
-    return "words.embedding_penalty has no effect";
+  if (!has_embedding(words.front_end)) {
+    if (words.num_embedding_copies != usual.num_embedding_copies)
+      return "words.num_embedding_copies has no effect with front_end cepstra";
+    if (words.embedding_penalty != usual.embedding_penalty)
+      return "words.embedding_penalty has no effect with front_end cepstra";
+    if (words.embedding_weight != usual.embedding_weight)
+      return "words.embedding_weight has no effect with front_end cepstra";
+  }
   if (words.embedding_shrinkage != usual.embedding_shrinkage)
     return "words.embedding_shrinkage has no effect";
   if (words.embedding_false_accept_rate != usual.embedding_false_accept_rate)
@@ -360,8 +408,11 @@ const char* without_effect(const WordRecognizerOptions& words) {
 ConnectedWordRecognizer ConnectedWordRecognizer::train(
     const std::vector<WordSample>& samples, const ConnectedWordRecognizerOptions& options,
     const TrainingProgress& progress, const StopCheck& should_stop,
-    const std::vector<WordSample>& fillers) {
+    const std::vector<WordSample>& fillers,
+    const std::shared_ptr<const SpeechEmbedding>& embedding) {
   validate(options);
+  require(has_embedding(options.words.front_end) == (embedding != nullptr),
+          "there must be a speech embedding exactly where words.front_end is both");
   if (const char* fault = without_effect(options.words)) fail(ErrorKind::invalid_argument, fault);
   std::vector<std::string> labels;
   std::set<std::string> speakers;
@@ -380,7 +431,10 @@ ConnectedWordRecognizer ConnectedWordRecognizer::train(
     used.words.num_mixtures =
         std::clamp(static_cast<int>(speakers.size()) / per_mixture, 1, kMaxMixtures);
   }
-  return ConnectedWordTrainer(used, sorted_labels(labels), should_stop)
+  // Where nothing can be held out: what was chosen for the data of the studies.
+  if (embedding != nullptr && !used.choose_penalty && used.words.embedding_weight == 0)
+    used.words.embedding_weight = kUsualWeight;
+  return ConnectedWordTrainer(used, sorted_labels(labels), embedding, should_stop)
       .run(samples, fillers, progress);
 }
 

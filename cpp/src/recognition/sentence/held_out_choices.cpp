@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/parallel_for.hpp"
+#include "recognition/sentence/embedding_rescorer.hpp"
 #include "recognition/sentence/sentence_training.hpp"
 #include "recognition/sentence/unknown_word.hpp"
 
@@ -41,6 +42,14 @@ bool is_right(const DecodedWord& word, const ScoredRecording& recording, const W
   return false;
 }
 
+int word_errors(const ConnectedWordRecognizer& trained, const ScoredRecording& recording,
+                const WordString& string) {
+  std::vector<int> found;
+  for (const TranscribedWord& word : trained.recognise(recording, {0, 0, false}).words)
+    found.push_back(label_index(trained.labels(), word.label));
+  return num_word_errors(string.labels, found);
+}
+
 }  // namespace
 
 void HeldOutChoices::try_penalties(const ConnectedWordRecognizer& trained,
@@ -54,19 +63,38 @@ void HeldOutChoices::try_penalties(const ConnectedWordRecognizer& trained,
     tried.push_back(trained.with_decoder(decoder));
   }
   parallel_for(strings.size(), should_stop_, [&](std::size_t i, const StopCheck& stop) {
-    const ScoredRecording recording = trained.score(strings[i].audio, rate_hz);
+    const ScoredRecording recording = trained.score_begun(strings[i].audio, rate_hz);
     for (std::size_t p = 0; p < tried.size(); ++p) {
       poll(stop);
-      std::vector<int> found;
-      for (const TranscribedWord& word : tried[p].recognise(recording, {0, 0, false}).words)
-        found.push_back(label_index(trained.labels(), word.label));
-      errors[i][p] = num_word_errors(strings[i].labels, found);
+      errors[i][p] = word_errors(tried[p], recording, strings[i]);
     }
   });
   add_all(errors, &penalty_errors_);
 }
 
 double HeldOutChoices::best_penalty() const { return kPenalties[lowest(penalty_errors_)]; }
+
+void HeldOutChoices::try_weights(const ConnectedWordRecognizer& trained,
+                                 const std::vector<WordString>& strings) {
+  std::vector<std::array<int, kWeights.size()>> errors(strings.size());
+  const int rate_hz = trained.options().words.cepstra.sample_rate_hz;
+  parallel_for(strings.size(), should_stop_, [&](std::size_t i, const StopCheck& stop) {
+    errors[i].fill(0);
+    std::vector<float> recorded;
+    const ScoredRecording cepstra = trained.score_cepstra(strings[i].audio, rate_hz, &recorded);
+    if (cepstra.log_emissions.rows() == 0) return;
+    const std::vector<RescoredSpan> spans = trained.spans_of(cepstra, recorded);
+    for (std::size_t w = 0; w < kWeights.size(); ++w) {
+      poll(stop);
+      ScoredRecording both = cepstra;
+      EmbeddingRescorer::rescore(spans, kWeights[w], trained.chains(), &both.log_emissions);
+      errors[i][w] = word_errors(trained, both, strings[i]);
+    }
+  });
+  add_all(errors, &weight_errors_);
+}
+
+double HeldOutChoices::best_weight() const { return kWeights[lowest(weight_errors_)]; }
 
 void HeldOutChoices::try_scales(const ConnectedWordRecognizer& trained,
                                 const std::vector<WordString>& strings) {
@@ -103,7 +131,7 @@ void HeldOutChoices::add_leads(const ConnectedWordRecognizer& trained,
     const MatrixF scores =
         trained
             .score_models(strings[i].audio, trained.options().words.cepstra.sample_rate_hz,
-                          &fillers)
+                          &fillers, nullptr)
             .log_emissions;
     backgrounds[i] = unknown_background(scores, trained.states_of_words(), num_silence, fillers,
                                         trained.options().unknown_rank);

@@ -23,6 +23,10 @@ class HeldOutChoices {
                      const std::vector<WordString>& strings);
   [[nodiscard]] double best_penalty() const;
 
+  /// The same by every weight of the embedding that `trained` has, with its penalty.
+  void try_weights(const ConnectedWordRecognizer& trained, const std::vector<WordString>& strings);
+  [[nodiscard]] double best_weight() const;
+
   /// The same for the other choices, with the penalty that `trained` has.
   void try_scales(const ConnectedWordRecognizer& trained, const std::vector<WordString>& strings);
   [[nodiscard]] double best_scale() const;
@@ -41,8 +45,12 @@ class HeldOutChoices {
                                          -50.0,  -30.0,  -15.0,  0.0,    15.0,   30.0};
   static constexpr std::array kScales{1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005};
 
+  // On log odds of a word; log scores of cepstra count every frame as if it stood alone.
+  static constexpr std::array kWeights{40.0, 20.0, 80.0, 10.0, 160.0, 5.0, 320.0};
+
   StopCheck should_stop_;
   std::array<int, kPenalties.size()> penalty_errors_{};
+  std::array<int, kWeights.size()> weight_errors_{};
   std::array<double, kScales.size()> scale_losses_{};
   double lead_sum_ = 0;  // weighed, over frames of speech
   double num_speech_ = 0;

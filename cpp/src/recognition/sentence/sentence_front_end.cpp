@@ -19,6 +19,12 @@ ActivityOptions without_padding(ActivityOptions activity) {
   return activity;
 }
 
+// An embedding reads whole words, and no frames.
+WordRecognizerOptions of_cepstra(WordRecognizerOptions options) {
+  options.front_end = FrontEndKind::cepstra;
+  return options;
+}
+
 }  // namespace
 
 void check_recording(Span<const float> audio, int sample_rate_hz) {
@@ -32,7 +38,7 @@ void check_recording(Span<const float> audio, int sample_rate_hz) {
 }
 
 SentenceFrontEnd::SentenceFrontEnd(const WordRecognizerOptions& options, double warp_factor)
-    : words_(options, warp_factor),
+    : words_(of_cepstra(options), warp_factor),
       activity_(without_padding(options.activity)),
       noise_floor_db_(options.noise_floor_db),
       frame_shift_(options.cepstra.samples_of(options.cepstra.frame_shift_ms)),

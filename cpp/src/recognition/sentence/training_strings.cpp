@@ -71,6 +71,7 @@ WordString StringMaker::join_one(const std::vector<const SpokenWord*>& words,
     const auto last = static_cast<std::ptrdiff_t>(word.last);
     append(word.clip, first - before, first, &string.audio);
     string.labels.push_back(word.label);
+    string.words.push_back(&word);
     string.firsts.push_back(string.audio.size());
     append(word.clip, first, last, &string.audio);
     string.lasts.push_back(string.audio.size());
@@ -89,8 +90,12 @@ WordString StringMaker::join_one(const std::vector<const SpokenWord*>& words,
 std::vector<float> StringMaker::heard(const WordString& string, int copy,
                                       std::uint64_t seed) const {
   const auto num_clean = static_cast<int>(front_ends_.size());
-  if (copy < num_clean) return string.audio;
-  Random random(mixed(seed, static_cast<std::uint64_t>(copy)));
+  return copy < num_clean ? string.audio
+                          : in_noise(string, mixed(seed, static_cast<std::uint64_t>(copy)));
+}
+
+std::vector<float> StringMaker::in_noise(const WordString& string, std::uint64_t seed) const {
+  Random random(seed);
   const WordRecognizerOptions& words = options_.words;
   const double snr_db = words.min_snr_db + random.uniform() * (words.max_snr_db - words.min_snr_db);
   return with_noise(string.audio, mean_power(string.audio) * std::pow(10.0, -snr_db / 10), &random);

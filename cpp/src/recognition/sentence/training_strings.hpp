@@ -29,7 +29,8 @@ struct SpokenWord {
 struct WordString {
   std::vector<float> audio;
   std::vector<int> labels;
-  std::vector<std::size_t> firsts;  ///< of every word, in samples
+  std::vector<const SpokenWord*> words;  ///< that it was joined from
+  std::vector<std::size_t> firsts;       ///< of every word, in samples
   std::vector<std::size_t> lasts;
 };
 
@@ -48,6 +49,8 @@ class StringMaker {
                                              std::uint64_t seed) const;
   /// The frames of copy `copy`.
   [[nodiscard]] MatrixF frames(const WordString& string, int copy, std::uint64_t seed) const;
+  /// The audio in noise, of a kind and as loud as a noisy copy may have it.
+  [[nodiscard]] std::vector<float> in_noise(const WordString& string, std::uint64_t seed) const;
   /// Where the words of a string and the pauses lie in its frames; those are model `silence`.
   [[nodiscard]] std::vector<DecodedWord> segments(const WordString& string, Eigen::Index num_frames,
                                                   int silence) const;

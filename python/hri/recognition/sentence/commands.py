@@ -16,7 +16,8 @@ from hri.core.suggest import did_you_mean
 from hri.language import Grammar
 from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN, Decision, NBest
 from hri.recognition.inputs import AudioInput
-from hri.recognition.sentence.recognizer import Alternative, ConnectedWordRecognizer
+from hri.recognition.sentence.recognizer import ConnectedWordRecognizer
+from hri.recognition.sentence.transcript import Alternative
 
 MOST_SENTENCES = 10_000
 NUM_ALTERNATIVES = 20

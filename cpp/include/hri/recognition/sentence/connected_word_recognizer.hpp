@@ -22,8 +22,10 @@
 #include "hri/language/lattice.hpp"
 #include "hri/language/ngram_model.hpp"
 #include "hri/language/word_emissions.hpp"
+#include "hri/models/classifiers/softmax_regression.hpp"
 #include "hri/models/codebook/multi_stream_codebook.hpp"
 #include "hri/recognition/training.hpp"
+#include "hri/recognition/word/speech_embedding.hpp"
 #include "hri/recognition/word/word_recognizer.hpp"
 #include "hri/signal/activity_meter.hpp"
 
@@ -51,7 +53,8 @@ struct HRI_API ConnectedWordRecognizerOptions {
   static void visit(Self& o, Visitor&& v) {
     v("words", o.words, any_value,
       "front end, models and augmentation as of isolated words; ptbhmm: the same densities as "
-      "possibilities over codewords, num_codewords for every column of the features; what these "
+      "possibilities over codewords, num_codewords for every column of the features; front_end "
+      "both: words of a first search are named anew by a pretrained speech embedding; what these "
       "reject words by is not used");
     v("silence_states", o.silence_states, within(1, 64), "left-right states of silence");
     v("silence_mixtures", o.silence_mixtures, within(1, 64), "Gaussians of each of them");
@@ -62,8 +65,8 @@ struct HRI_API ConnectedWordRecognizerOptions {
       "times that the boundaries of words are moved to where the models put them, and the models "
       "trained again");
     v("choose_penalty", o.choose_penalty, any_value,
-      "decoder.insertion_penalty, confidence_scale and unknown_lead are chosen on strings of "
-      "speakers held out");
+      "decoder.insertion_penalty, confidence_scale, unknown_lead and, where it is 0, "
+      "words.embedding_weight are chosen on strings of speakers held out");
     v("confidence_scale", o.confidence_scale, within(1e-6, 1),
       "factor on log scores in confidences, as neighbouring frames do not score independently");
     v("min_confidence", o.min_confidence, within(0, 1),
@@ -140,7 +143,16 @@ struct ScoredRecording {
   [[nodiscard]] double seconds_of(std::int64_t frame) const;
 };
 
+/// How the words of a vocabulary sound to a pretrained speech embedding.
+struct EmbeddedWords {
+  std::shared_ptr<const SpeechEmbedding> embedding;
+  /// Of SpeechEmbedding::vector_of() to the labels, and behind them words that are none of them.
+  SoftmaxRegression classifier;
+};
+
 namespace detail {
+class EmbeddingRescorer;
+struct RescoredSpan;
 class HeldOutChoices;
 class SentenceFrontEnd;
 class WordTimes;
@@ -152,22 +164,25 @@ class HRI_API ConnectedWordRecognizer {
   /// From trained parts: `models` are those of the sorted `labels` and behind them that of silence;
   /// `final_stays` the probability of each to stay in its last state; `codebook` is that of the
   /// kind ptbhmm; with options.unknown_words the states of `fillers` count as sounds of unknown
-  /// words. Throws InvalidArgument for parts that do not fit each other, and options out of
-  /// range.
+  /// words; `embedded` goes with options.words.front_end both, and counts with the weight
+  /// options.words.embedding_weight. Throws InvalidArgument for parts that do not fit each other,
+  /// and options out of range.
   ConnectedWordRecognizer(const ConnectedWordRecognizerOptions& options,
                           std::vector<std::string> labels, std::vector<GaussianMixtureHmm> models,
                           const VectorD& final_stays,
                           std::optional<MultiStreamCodebook> codebook = std::nullopt,
-                          FillerModels fillers = {});
+                          FillerModels fillers = {},
+                          std::optional<EmbeddedWords> embedded = std::nullopt);
 
   /// Trains on isolated words. `fillers` are words outside the vocabulary, of any speakers, which
   /// are used with options.unknown_words alone: unknown words are found by their sounds, too.
-  /// Throws InvalidArgument as WordRecognizer::train() does; Interrupted.
-  static ConnectedWordRecognizer train(const std::vector<WordSample>& samples,
-                                       const ConnectedWordRecognizerOptions& options,
-                                       const TrainingProgress& progress = {},
-                                       const StopCheck& should_stop = {},
-                                       const std::vector<WordSample>& fillers = {});
+  /// `embedding` goes with options.words.front_end both. Throws InvalidArgument as
+  /// WordRecognizer::train() does; Interrupted.
+  static ConnectedWordRecognizer train(
+      const std::vector<WordSample>& samples, const ConnectedWordRecognizerOptions& options,
+      const TrainingProgress& progress = {}, const StopCheck& should_stop = {},
+      const std::vector<WordSample>& fillers = {},
+      const std::shared_ptr<const SpeechEmbedding>& embedding = nullptr);
 
   /// The same with a language model of order 1 or 2, which has to know all labels; the scale is
   /// options().decoder.language_scale. Throws InvalidArgument.
@@ -179,10 +194,18 @@ class HRI_API ConnectedWordRecognizer {
   /// The same with other options of the decoder. Throws InvalidArgument for values out of range.
   [[nodiscard]] ConnectedWordRecognizer with_decoder(const ConnectedDecoderOptions& decoder) const;
 
-  static ConnectedWordRecognizer load(const std::string& path);
+  /// The same with another words.embedding_weight, which has no effect without an embedding. Throws
+  /// InvalidArgument for one out of range.
+  [[nodiscard]] ConnectedWordRecognizer with_embedding_weight(double weight) const;
+
+  /// One that was trained with an embedding needs the same: throws InvalidArgument without, and
+  /// FormatError for other weights.
+  static ConnectedWordRecognizer load(const std::string& path,
+                                      std::shared_ptr<const SpeechEmbedding> embedding = nullptr);
   void save(const std::string& path) const;
   [[nodiscard]] ModelFile to_model_file() const;
-  static ConnectedWordRecognizer from_model_file(const ModelFile& file);
+  static ConnectedWordRecognizer from_model_file(
+      const ModelFile& file, std::shared_ptr<const SpeechEmbedding> embedding = nullptr);
 
   /// The words of a recording: any number, in any order or as the language model weighs them, a
   /// sentence of the grammar, or as `query` says. No word without speech. Throws InvalidArgument
@@ -192,6 +215,9 @@ class HRI_API ConnectedWordRecognizer {
 
   /// The same in two steps: the scores of a recording do not depend on how it is searched.
   [[nodiscard]] ScoredRecording score(Span<const float> audio, int sample_rate_hz) const;
+  /// The same of a recording that goes on: by cepstra alone, as what is named now is named anew
+  /// with every further sound.
+  [[nodiscard]] ScoredRecording score_begun(Span<const float> audio, int sample_rate_hz) const;
   /// Throws InvalidArgument for scores of another recogniser.
   [[nodiscard]] Transcript recognise(const ScoredRecording& recording,
                                      const TranscriptionQuery& query = {}) const;
@@ -231,6 +257,8 @@ class HRI_API ConnectedWordRecognizer {
     return fillers_ == nullptr ? 0 : static_cast<int>(fillers_->models().size());
   }
   [[nodiscard]] const VectorD& final_stays() const { return final_stays_; }
+  /// nullptr: there is none.
+  [[nodiscard]] std::shared_ptr<const SpeechEmbedding> embedding() const;
   /// Of the words, of silence, and with options().unknown_words that of the unknown word.
   [[nodiscard]] const std::vector<WordChain>& chains() const { return chains_; }
   [[nodiscard]] int silence() const { return static_cast<int>(labels_.size()); }
@@ -239,10 +267,17 @@ class HRI_API ConnectedWordRecognizer {
  private:
   friend class detail::HeldOutChoices;
 
-  static ConnectedWordRecognizer read(const ModelFile& file);
-  /// score() without the unknown word; `fillers` gets the scores of the states of filler words.
+  static ConnectedWordRecognizer read(const ModelFile& file,
+                                      const std::shared_ptr<const SpeechEmbedding>& embedding);
+  /// score_begun() without the unknown word; `fillers` gets the scores of the states of filler
+  /// words, `recorded` the audio that the activity is of; either may be nullptr.
   [[nodiscard]] ScoredRecording score_models(Span<const float> audio, int sample_rate_hz,
-                                             MatrixF* fillers) const;
+                                             MatrixF* fillers, std::vector<float>* recorded) const;
+  [[nodiscard]] ScoredRecording score_cepstra(Span<const float> audio, int sample_rate_hz,
+                                              std::vector<float>* recorded) const;
+  /// What the words of a first search may have been, by the embedding.
+  [[nodiscard]] std::vector<detail::RescoredSpan> spans_of(const ScoredRecording& recording,
+                                                           Span<const float> recorded) const;
   [[nodiscard]] WordNetwork network(int num_words) const;
   // Any number of words in any order.
   [[nodiscard]] WordNetwork any_words() const;
@@ -264,6 +299,7 @@ class HRI_API ConnectedWordRecognizer {
   VectorD final_stays_;
   std::shared_ptr<const detail::SentenceFrontEnd> front_end_;
   std::shared_ptr<const detail::WordTimes> times_;
+  std::shared_ptr<const detail::EmbeddingRescorer> rescorer_;  // nullptr: cepstra alone
   std::shared_ptr<const GaussianEmissions> emissions_;
   std::shared_ptr<const CodedPossibilities> possibilities_;         // of the kind ptbhmm
   std::shared_ptr<const GaussianEmissions> fillers_;                // nullptr: there are none
