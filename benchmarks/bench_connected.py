@@ -11,10 +11,12 @@ import time
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from pocketsphinx import Config, Decoder
 
+import timing
 from hri import ConnectedWordRecognizer, read_audio
 from hri.datasets import Dataset
 from hri.language import Grammar, count_word_errors
@@ -40,6 +42,9 @@ TAKES = 15
 RATE_HZ = 16000
 """That of PocketSphinx's model."""
 BUDGET = 0.02
+FrontEndKind = Literal["cepstra", "both"]
+Part = tuple[ConnectedWordRecognizer, list[np.ndarray], list[list[str]]]
+"""A model, strings that it was not trained on, and their words."""
 JSGF = f"#JSGF V1.0;\ngrammar digits;\npublic <digits> = ( {' | '.join(DIGITS)} )+;\n"
 
 
@@ -67,7 +72,9 @@ def _strings(words: tuple[str, ...]) -> tuple[list[np.ndarray], list[list[str]],
 
 
 @cache
-def _recorded() -> list[tuple[ConnectedWordRecognizer, list[np.ndarray], list[list[str]]]] | None:
+def _recorded(
+    front_end: FrontEndKind,
+) -> list[tuple[ConnectedWordRecognizer, list[np.ndarray], list[list[str]]]] | None:
     """Of each speaker of fsdd/recordings in HRI_DATA: a model of the others, and strings of the speaker's digits.
 
     None where there are no recordings.
@@ -82,7 +89,9 @@ def _recorded() -> list[tuple[ConnectedWordRecognizer, list[np.ndarray], list[li
     for speaker in sorted({person for _, _, person in clips}):
         train = [clip for clip in clips if clip[2] != speaker]
         sounds, words, persons = zip(*train, strict=True)
-        model = ConnectedWordRecognizer().fit(list(sounds), list(words), groups=list(persons))
+        model = ConnectedWordRecognizer(words={"front_end": front_end}).fit(
+            list(sounds), list(words), groups=list(persons)
+        )
         labels = [[str(word) for word in rng.choice(DIGITS, LENGTH)] for _ in range(STRINGS // 2)]
         strings = []
         for string in labels:
@@ -107,10 +116,20 @@ def connected_digits() -> Timed:
     Else 10 by 3 synthetic voices, ours trained on 4 other ones. PocketSphinx has its own US English model, which has
     met no synthetic voice, nor speech of 8 kHz, which the recordings are.
     """
-    recorded = _recorded()
+    return _beside_pocketsphinx("cepstra")
+
+
+def connected_embedding() -> Timed:
+    """The same by cepstra and the pretrained speech embedding, which names the words anew (extra embedding)."""
+    timing.need_embedding()
+    return _beside_pocketsphinx("both")
+
+
+def _beside_pocketsphinx(front_end: FrontEndKind) -> Timed:
+    recorded = _recorded(front_end)
     if recorded is None:
         sounds, labels, _ = _strings(tuple(DIGITS))
-        parts = [(_trained(DIGITS), sounds, labels)]
+        parts = [(_trained(DIGITS, words={"front_end": front_end}), sounds, labels)]
     else:
         parts = recorded
     for model, _, _ in parts:
@@ -197,6 +216,7 @@ def connected_ptbhmm() -> Timed:
 
 BENCHES = (
     Bench("connected_digits", connected_digits, "PocketSphinx"),
+    Bench("connected_embedding", connected_embedding, "PocketSphinx"),
     Bench("connected_ptbhmm", connected_ptbhmm, "own HMMs"),
     Bench("loop_of_100_words", loop_of_100_words, "0.02 of real time"),
 )
