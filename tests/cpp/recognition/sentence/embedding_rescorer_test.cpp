@@ -192,6 +192,20 @@ TEST(EmbeddingRescorer, NeedsTheWeightsItWasTrainedWith) {
       "these are " + embedding(17)->checksum());
 }
 
+TEST(EmbeddingRescorer, RefusesFilesWhosePartsDoNotFit) {
+  const auto refused = [](const auto& change) {
+    ModelFile file = trained().to_model_file();
+    change(&file);
+    EXPECT_THROW((void)ConnectedWordRecognizer::from_model_file(file, embedding()), FormatError);
+  };
+  refused([](ModelFile* file) { file->set_text("embedding.checksum", "00000000"); });
+  refused([](ModelFile* file) { file->set_text("embedding.num_pieces", "4"); });
+  refused([](ModelFile* file) { file->set_text("words.front_end", "cepstra"); });
+  refused([](ModelFile* file) {
+    file->set_matrix("embedded_words.weights", MatrixF::Zero(5, embedding()->vector_size()));
+  });
+}
+
 TEST(EmbeddingRescorer, RefusesWhatDoesNotFit) {
   const auto train = [](const ConnectedWordRecognizerOptions& options,
                         const std::shared_ptr<const SpeechEmbedding>& given) {
