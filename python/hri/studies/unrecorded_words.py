@@ -15,7 +15,7 @@ import numpy as np
 from hri.language import count_word_errors
 from hri.recognition import ConnectedWordRecognizer
 from hri.studies.clips import Clip, read_clips
-from hri.studies.connected_words import directory_of, fit_connected, strings_of
+from hri.studies.connected_words import FrontEndKind, directory_of, fit_connected, strings_of
 from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
 from hri.studies.synthetic_speakers import WORDS
 from hri.studies.tables import Row, further_statistics, statistics
@@ -69,7 +69,14 @@ def _measured(words: ConnectedWordRecognizer, test: Sequence[Clip], added: Seque
     }
 
 
-def _run(data_dir: Path, progress: Progress, *, data: Sequence[str] = DATA, takes: int | None = None) -> dict[str, Any]:
+def _run(
+    data_dir: Path,
+    progress: Progress,
+    *,
+    front_end: FrontEndKind,
+    data: Sequence[str] = DATA,
+    takes: int | None = None,
+) -> dict[str, Any]:
     rows: list[Row] = []
     for name in data:
         say = within(progress, name)
@@ -82,7 +89,8 @@ def _run(data_dir: Path, progress: Progress, *, data: Sequence[str] = DATA, take
             recorded = [clip for clip in clips if clip[1] != person]
             test = [clip for clip in clips if clip[1] == person]
             for method in METHODS:
-                model = fit_connected(_train(method, recorded, spoken, added), within(say, f"{person}, {method}"), {})
+                train = _train(method, recorded, spoken, added)
+                model = fit_connected(train, within(say, f"{person}, {method}"), {"front_end": front_end})
                 found[method][person] = _measured(model, test, added)
         rows += [_row(name, method, found[method]) for method in METHODS]
     errors = {(row["data"], row["method"]): row["errors_by_grammar_mean"] for row in rows}
@@ -102,16 +110,16 @@ def _row(name: str, method: str, by_person: dict[str, dict[str, float]]) -> Row:
     return row
 
 
-STUDIES = (
-    Study(
-        "unrecorded-words",
+def _study(name: str, front_end: FrontEndKind, by: str = "") -> Study:
+    return Study(
+        name,
         "strings of digits of which 3 of 10 were never recorded but said by synthetic voices in training, English and "
         "Hindi, each of 4 speakers held out: the share of these and of other words that is right where the number of "
-        "words is known, and word errors where it is not, without and with a grammar",
+        f"words is known, and word errors where it is not, without and with a grammar{by}",
         tuple(WORD_FOLDERS[name] for name in DATA),
         "by a grammar of 200 sentences and more, a word error rate at most 10 points above that with recordings of all "
         "words",
-        _run,
+        partial(_run, front_end=front_end),
         Layout(columns="method", measure="added"),
         axes={"data": DATA},
         thins=True,
@@ -120,5 +128,10 @@ STUDIES = (
             "cpp/language",
             "cpp/recognition/sentence",
         ),
-    ),
+    )
+
+
+STUDIES = (
+    _study("unrecorded-words", "cepstra"),
+    _study("unrecorded-words-both", "both", "; by cepstra and a pretrained speech embedding (extra embedding)"),
 )
