@@ -17,8 +17,11 @@ import pytest
 from numpy.typing import NDArray
 
 from hri.io import write_wav_pcm16
+from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer
+from hri.recognition.sentence import recognizer as sentence_recognizer
 from hri.recognition.word import embedding_filler_words, filler_words, recognizer
 from hri.synthetic.signer import make_gesture_corpus
+from hri.training import train
 
 pytest.register_assert_rewrite("serving", "browsing")  # plugins of some test files, which import them, too
 
@@ -73,6 +76,22 @@ def spoken(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
+def word_model(spoken: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A recogniser of `spoken` by cepstra and without filler words, for those who only use one."""
+    path = tmp_path_factory.mktemp("model") / "words.hri"
+    train(spoken, WordRecognizer(num_vtlp_factors=1, num_noisy_copies=1), fillers=()).save(path)
+    return path
+
+
+@pytest.fixture(scope="session")
+def sign_model(signed: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A recogniser of `signed`."""
+    path = tmp_path_factory.mktemp("model") / "signs.hri"
+    train(signed, GestureRecognizer()).save(path)
+    return path
+
+
+@pytest.fixture(scope="session")
 def signed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Folder of drawn stills of the signs 1 and 2 by four persons."""
     folder = tmp_path_factory.mktemp("signed")
@@ -85,6 +104,10 @@ class CommandResult:
 
     def __init__(self, code: int, out: str, err: str) -> None:
         self.code, self.out, self.err = code, out, err
+
+
+QUICK = ("--front-end", "cepstra", "--no-fillers", "--no-network")
+"""For ``hri train speech``: a twentieth of the time, where how well words are recognised does not matter."""
 
 
 @pytest.fixture
@@ -144,12 +167,18 @@ def robot_data(name: str) -> Path:
     return Path(folder) / name
 
 
+def three_fillers() -> tuple[FillerWord, ...]:
+    """All takes of three of the words that stand for those outside a vocabulary."""
+    labels = sorted({word.label for word in filler_words()})[:3]
+    return tuple(word for word in filler_words() if word.label in labels)
+
+
 @pytest.fixture(scope="module")
 def few_fillers() -> Iterator[None]:
     """Training with three filler words, and three for an embedding: more take most of its time where words are few."""
     with pytest.MonkeyPatch.context() as patch:
-        labels = sorted({word.label for word in filler_words()})[:3]
-        few = tuple(word for word in filler_words() if word.label in labels)
+        few = three_fillers()
         patch.setattr(recognizer, "filler_words", lambda: few)
+        patch.setattr(sentence_recognizer, "filler_words", lambda: few)
         patch.setattr(recognizer, "embedding_filler_words", lambda: embedding_filler_words()[:3])
         yield

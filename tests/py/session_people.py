@@ -4,13 +4,15 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 import hri
-from conftest import PERSONS, RATE_HZ, tone_word
+from conftest import PERSONS, RATE_HZ, three_fillers, tone_word
 from drawn_hands import FPS, HIDDEN, Frame, picture, stills
 from hri.robot import Trajectory
 
@@ -22,7 +24,13 @@ _RISE_FRAMES = 9
 
 
 def train_words() -> hri.WordRecognizer:
-    """A recogniser of the words flat, tall and stop."""
+    """A recogniser of the words flat, tall and stop, of its own: it is trained once and copied."""
+    words: hri.WordRecognizer = pickle.loads(_trained_words())
+    return words
+
+
+@cache
+def _trained_words() -> bytes:
     rows = [
         (tone_word(base_hz, slope, 7 * take + number), label, person)
         for number, (person, base_hz) in enumerate(PERSONS.items())
@@ -30,14 +38,22 @@ def train_words() -> hri.WordRecognizer:
         for label, slope in SLOPES.items()
     ]
     x, y, persons = map(list, zip(*rows, strict=True))
-    return hri.WordRecognizer(false_reject_rate=0.0).fit(x, y, sample_rate_hz=RATE_HZ, groups=persons)
+    words = hri.WordRecognizer(false_reject_rate=0.0)
+    words.fit(x, y, sample_rate_hz=RATE_HZ, groups=persons, fillers=three_fillers())
+    return pickle.dumps(words)
 
 
 def train_signs() -> hri.GestureRecognizer:
-    """A recogniser of the signs flat and tall."""
+    """A recogniser of the signs flat and tall, of its own."""
+    signs: hri.GestureRecognizer = pickle.loads(_trained_signs())
+    return signs
+
+
+@cache
+def _trained_signs() -> bytes:
     rows = [(stills(sign, seed), sign, f"p{seed % 3}") for seed in range(6) for sign in ("flat", "tall")]
     x, y, persons = map(list, zip(*rows, strict=True))
-    return hri.GestureRecognizer(false_reject_rate=0.0).fit(x, y, groups=persons)
+    return pickle.dumps(hri.GestureRecognizer(false_reject_rate=0.0).fit(x, y, groups=persons))
 
 
 def speech(said: Sequence[tuple[str, float]], duration_s: float) -> NDArray[np.float32]:

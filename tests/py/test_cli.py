@@ -16,7 +16,7 @@ from pathlib import Path
 import cv2
 import pytest
 
-from conftest import RATE_HZ, tone_word
+from conftest import QUICK, RATE_HZ, tone_word
 from hri import _native
 from hri.cli.answers import alternatives, confidence_text
 from hri.cli.info import EXTRAS
@@ -54,10 +54,10 @@ def test_train_then_recognise_with_the_models_kept_per_user(hri, spoken: Path, s
     assert "speech: 1 (1 " in alone.err
 
 
-def test_robot_answers_on_film_and_rests_when_nothing_was_said(hri, spoken: Path, tmp_path: Path):
-    hri("train", "speech", "--data", spoken)
+def test_robot_answers_on_film_and_rests_when_nothing_was_said(hri, spoken: Path, word_model: Path, tmp_path: Path):
     film, still = tmp_path / "answer.mp4", tmp_path / "answer.png"
-    said = ("recognise", "--speech", spoken / "1_low_0.wav", "--backend", "kinematic", "--robot")
+    models = ("--speech-model", word_model)
+    said = ("recognise", *models, "--speech", spoken / "1_low_0.wav", "--backend", "kinematic", "--robot")
     assert hri(*said, film).code == 0
     assert cv2.VideoCapture(str(film)).read()[0]
     assert hri(*said, still).code == 0
@@ -65,9 +65,10 @@ def test_robot_answers_on_film_and_rests_when_nothing_was_said(hri, spoken: Path
 
     silence = tmp_path / "silence.wav"
     write_wav_pcm16(str(silence), 0 * tone_word(500, 0, 0), RATE_HZ)
-    rests = hri("recognise", "--speech", silence, "--robot", tmp_path / "none.mp4", "--json", tmp_path / "r.json")
+    none = tmp_path / "none.mp4"
+    rests = hri("recognise", *models, "--speech", silence, "--robot", none, "--json", tmp_path / "r.json")
     assert rests.code == 0 and rests.out.startswith("no_input\t-\t")
-    assert "robot: not moved" in rests.err and not (tmp_path / "none.mp4").exists()
+    assert "robot: not moved" in rests.err and not none.exists()
     assert json.loads((tmp_path / "r.json").read_text())["robot"] == {"moved": False, "reason": "no_input"}
 
 
@@ -108,7 +109,7 @@ def test_evaluate_by_person_and_by_folders(hri, spoken: Path, tmp_path: Path):
     assert written["conditions"]["snr_db"] == 20 and written["num_samples"] == 18
     assert written["options"]["num_states"] > 0
 
-    quick = ("--option", "num_states=4", "--option", "use_network=false")
+    quick = ("--option", "num_states=4", "--option", "use_network=false", "--front-end", "cepstra")
     split = hri("evaluate", "speech", "--train", spoken, "--test", spoken, *quick)
     assert split.code == 0 and split.out.splitlines()[-1].startswith("all\t18\t100.0 %\t"), "no spread of one fold"
     assert "WARNING: in both folders: high low middle" in split.err
@@ -139,10 +140,11 @@ def test_wrong_usage_ends_with_2(hri, arguments: list[str], message: str):
     assert message in result.err
 
 
-def test_bad_data_ends_with_3_and_one_line(hri, tmp_path: Path, spoken: Path):
+def test_bad_data_ends_with_3_and_one_line(hri, tmp_path: Path, spoken: Path, word_model: Path):
     broken = tmp_path / "broken.wav"
     broken.write_bytes(b"RIFF but no more")
-    hri("train", "speech", "--data", spoken)
+    (tmp_path / "data" / "hri").mkdir(parents=True)
+    (tmp_path / "data" / "hri" / "speech.hri").write_bytes(word_model.read_bytes())
     for arguments, message in (
         (("recognise", "--speech", broken), "broken.wav"),
         (("recognise", "--gesture", broken), "run 'hri train gesture --data DIR'"),
@@ -175,7 +177,7 @@ def test_study_list_names_every_study(hri):
 def test_info_tells_of_the_installation_and_of_models(hri, spoken: Path, tmp_path: Path):
     assert f"version\t{_native.__version__}" in hri("info").out
     model = tmp_path / "words.hri"
-    hri("train", "speech", "--data", spoken, "--out", model, "--option", "num_states=5")
+    hri("train", "speech", "--data", spoken, "--out", model, "--option", "num_states=5", *QUICK)
     reported = hri("info", model).out.splitlines()
     assert "labels\t1 2" in reported and "option\tnum_states=5" in reported and "option\ttrim=true" in reported
 

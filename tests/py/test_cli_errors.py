@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pytest
 
+from conftest import QUICK
 from hri import studies
 from hri.cli import main as cli_main
 from hri.cli.output import say_table
@@ -167,7 +168,7 @@ def test_a_label_that_the_robot_does_not_know_still_gives_the_decision(hri, spok
     for path in spoken.iterdir():
         (words / f"word{path.name}").write_bytes(path.read_bytes())
     model, report, film = tmp_path / "words.hri", tmp_path / "report.json", tmp_path / "film.mp4"
-    assert hri("train", "speech", "--data", words, "--out", model).code == 0
+    assert hri("train", "speech", "--data", words, "--out", model, *QUICK).code == 0
     said = ("recognise", "--speech", words / "word1_low_0.wav", "--speech-model", model)
     result = hri(*said, "--robot", film, "--json", report)
     assert result.code == 3 and result.out.startswith("word1\t")
@@ -183,18 +184,18 @@ def test_a_label_that_the_robot_does_not_know_still_gives_the_decision(hri, spok
     assert "--motions goes with --robot or --gui" in hri(*said, "--motions", motions).err
 
 
-def test_a_window_without_a_display_is_refused(hri, monkeypatch: pytest.MonkeyPatch, spoken: Path):
+def test_a_window_without_a_display_is_refused(hri, monkeypatch: pytest.MonkeyPatch, spoken: Path, word_model: Path):
     pytest.importorskip("pybullet")
     monkeypatch.delenv("DISPLAY", raising=False)
-    hri("train", "speech", "--data", spoken)
-    result = hri("recognise", "--speech", spoken / "1_low_0.wav", "--gui")
+    result = hri("recognise", "--speech", spoken / "1_low_0.wav", "--speech-model", word_model, "--gui")
     assert result.code == 3 and "DISPLAY" in result.err.splitlines()[-1]
 
 
 def test_people_met_before_and_files_left_out_are_told_of(hri, spoken: Path, tmp_path: Path):
-    split = hri("evaluate", "speech", "--train", spoken, "--test", spoken)
+    split = hri("evaluate", "speech", "--train", spoken, "--test", spoken, "--front-end", "cepstra", "--no-network")
     assert "in both folders: high low middle;" in split.err
-    part = hri("train", "speech", "--data", spoken, "--pattern", "{label}_low_{take}.wav", "--out", tmp_path / "m.hri")
+    chosen = ("--pattern", "{label}_low_{take}.wav", "--out", tmp_path / "m.hri", *QUICK)
+    part = hri("train", "speech", "--data", spoken, *chosen)
     assert part.code == 0 and "12 recordings do not fit the pattern, such as 1_high_0.wav" in part.err
 
 

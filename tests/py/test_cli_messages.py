@@ -14,6 +14,7 @@ from pathlib import Path
 import click
 import pytest
 
+from conftest import QUICK
 from hri.cli.main import hri as root
 from hri.core.suggest import did_you_mean, nearest
 from hri.datasets import Dataset
@@ -59,9 +60,10 @@ def test_labels_are_suggested(hri, spoken: Path, tmp_path: Path):
     assert result.code == 3 and "did you mean 'backward'" in result.err
 
 
-def test_files_of_another_kind_are_said_to_be_what_they_are(hri, spoken: Path, signed: Path, tmp_path: Path):
-    words, word, sign = tmp_path / "words.hri", spoken / "1_low_0.wav", next(signed.glob("*/*.jpg"))
-    assert hri("train", "speech", "--data", spoken, "--out", words, "--front-end", "cepstra", "--no-fillers").code == 0
+def test_files_of_another_kind_are_said_to_be_what_they_are(
+    hri, spoken: Path, signed: Path, word_model: Path, tmp_path: Path
+):
+    words, word, sign = word_model, spoken / "1_low_0.wav", next(signed.glob("*/*.jpg"))
     for arguments, code, message in (
         (("recognise", words), 2, "words.hri is a model, not a recording: give it as --speech-model"),
         (
@@ -84,20 +86,19 @@ def test_files_of_another_kind_are_said_to_be_what_they_are(hri, spoken: Path, s
         assert message in result.err, result.err
 
 
-def test_recordings_need_no_option_where_their_suffix_says_it_all(hri, spoken: Path, signed: Path, tmp_path: Path):
-    words, signs = tmp_path / "words.hri", tmp_path / "signs.hri"
-    assert hri("train", "speech", "--data", spoken, "--out", words, "--front-end", "cepstra", "--no-fillers").code == 0
-    assert hri("train", "gesture", "--data", signed, "--out", signs).code == 0
-    models = ("--speech-model", words, "--gesture-model", signs)
+def test_recordings_need_no_option_where_their_suffix_says_it_all(
+    hri, spoken: Path, signed: Path, word_model: Path, sign_model: Path
+):
+    models = ("--speech-model", word_model, "--gesture-model", sign_model)
     word, sign = spoken / "1_low_0.wav", sorted((signed / "1").iterdir())[0]
     short = hri("recognise", word, sign, *models)
     assert short.code == 0 and short.out == hri("recognise", "--speech", word, "--gesture", sign, *models).out
 
 
-def test_several_recordings_of_a_mode_have_a_line_each(hri, spoken: Path, signed: Path, tmp_path: Path):
-    words, signs, report = tmp_path / "words.hri", tmp_path / "signs.hri", tmp_path / "report.json"
-    assert hri("train", "speech", "--data", spoken, "--out", words, "--front-end", "cepstra", "--no-fillers").code == 0
-    assert hri("train", "gesture", "--data", signed, "--out", signs).code == 0
+def test_several_recordings_of_a_mode_have_a_line_each(
+    hri, spoken: Path, signed: Path, word_model: Path, sign_model: Path, tmp_path: Path
+):
+    words, signs, report = word_model, sign_model, tmp_path / "report.json"
     one, two, torn = spoken / "1_low_0.wav", spoken / "2_low_0.wav", tmp_path / "torn.wav"
     torn.write_bytes(b"RIFF")
     done = hri("recognise", one, torn, two, "--speech-model", words, "--json", report)
@@ -117,7 +118,7 @@ def test_several_recordings_of_a_mode_have_a_line_each(hri, spoken: Path, signed
 
 def test_quiet_and_verbose_change_what_is_said_and_not_the_result(hri, spoken: Path, tmp_path: Path):
     model = tmp_path / "words.hri"
-    command = ("train", "speech", "--data", spoken, "--out", model, "--front-end", "cepstra", "--no-fillers")
+    command = ("train", "speech", "--data", spoken, "--out", model, *QUICK)
     plain, quiet, verbose = hri(*command), hri("-q", *command), hri("-v", *command)
     assert plain.out == quiet.out == verbose.out
     assert quiet.err == "" and "18 recordings" in plain.err

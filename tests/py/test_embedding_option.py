@@ -21,6 +21,8 @@ from hri.recognition.word import embedding as module
 pytestmark = pytest.mark.usefixtures("few_fillers")
 SLOPES = {"1": 800.0, "2": -350.0, "3": 100.0}
 Command = Callable[..., CommandResult]
+FEWER = {"max_iterations": 2, "num_vtlp_factors": 1, "num_noisy_copies": 0, "num_embedding_copies": 0}
+QUICK = [word for name, value in FEWER.items() for word in ("--option", f"{name}={value}")]
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -39,7 +41,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         for label, slope in SLOPES.items()
     ]
     x, y, persons = map(list, zip(*rows, strict=True))
-    made = package.WordRecognizer(front_end="both", max_iterations=3)
+    made = package.WordRecognizer(front_end="both", max_iterations=3, num_embedding_copies=1)
     made.fit(x, y, sample_rate_hz=RATE_HZ, groups=persons).save(place / "words.hri")
     plain = package.WordRecognizer(max_iterations=3)
     plain.fit(x, y, sample_rate_hz=RATE_HZ, groups=persons).save(place / "plain.hri")
@@ -102,7 +104,7 @@ def test_commands_that_train_take_weights(
     hri: Command, folder: Path, spoken: Path, tmp_path: Path, no_extra: None, command: str
 ) -> None:
     out = tmp_path / "out.hri"
-    arguments: list[object] = [command, "speech", "--data", spoken, "--option", "max_iterations=2"]
+    arguments: list[object] = [command, "speech", "--data", spoken, *QUICK]
     arguments += ["--out", out, "--no-fillers"] if command == "train" else []
     missing = hri(*arguments, "--option", "front_end=both")
     assert (missing.code, missing.out) == (3, "") and "libhri[embedding]" in missing.err, missing.err

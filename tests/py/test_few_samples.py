@@ -13,7 +13,7 @@ import pytest
 from numpy.typing import NDArray
 
 import hri as hri_package
-from conftest import RATE_HZ, tone_word
+from conftest import QUICK, RATE_HZ, tone_word
 from hri.core.errors import InvalidArgument
 from hri.io import write_wav_pcm16
 from hri.signal import resample
@@ -87,7 +87,7 @@ def test_what_cannot_be_added_is_named_and_changes_nothing(words: hri_package.Wo
 
 def test_the_command_line_adds_and_removes_words(hri, spoken: Path, tmp_path: Path) -> None:
     model, more = tmp_path / "two.hri", tmp_path / "new" / "three.hri"
-    assert hri("train", "speech", "--data", spoken, "--out", model).code == 0
+    assert hri("train", "speech", "--data", spoken, "--out", model, *QUICK).code == 0
     files = [tmp_path / f"flat{take}.wav" for take in range(3)]
     for path, clip in zip(files, THREE, strict=True):
         write_wav_pcm16(str(path), clip, RATE_HZ)
@@ -106,7 +106,7 @@ def test_the_command_line_adds_and_removes_words(hri, spoken: Path, tmp_path: Pa
     assert hri("add-word", "--model", model, "--label", "0").code == 2
 
 
-def test_the_study_compares_with_training(tmp_path: Path) -> None:
+def test_the_study_compares_with_training(tmp_path: Path, few_fillers: None) -> None:
     folder = tmp_path / "fsdd" / "recordings"
     folder.mkdir(parents=True)
     (tmp_path / "hindi_words" / "words").mkdir(parents=True)

@@ -104,7 +104,17 @@ def test_the_command_takes_a_folder_of_other_words(hri, spoken, tmp_path):
         "none": ("--no-fillers",),
     }.items():
         model = tmp_path / f"{name}.hri"
-        train = ("train", "speech", "--data", str(spoken), "--out", str(model), "--front-end", "cepstra")
+        train = (
+            "train",
+            "speech",
+            "--data",
+            str(spoken),
+            "--out",
+            str(model),
+            "--front-end",
+            "cepstra",
+            "--no-network",
+        )
         assert hri(*train, *options).code == 0
         score[name] = WordRecognizer.load(model).recognise(tone_word(540.0, 800.0, 5), 16000).score
     assert len(set(score.values())) == 3

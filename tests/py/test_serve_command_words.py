@@ -37,6 +37,7 @@ from serving import LIMITS, answer, own_origin
 from test_commands import GRAMMAR, OPTIONS, tones
 
 pytest_plugins = ("serving",)
+pytestmark = pytest.mark.usefixtures("few_fillers")
 
 HUM = "#JSGF V1.0;\ngrammar hum;\npublic <command> = hum {gesture=up} {side=left} | 2 1 {gesture=up} {side=right};\n"
 

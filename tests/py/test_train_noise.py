@@ -81,7 +81,7 @@ def test_train_says_that_it_added_noise(
     spoken: Path, hum: Path, tmp_path: Path, few_fillers: None, capsys: pytest.CaptureFixture[str]
 ) -> None:
     report, plain, noisy = tmp_path / "report.json", tmp_path / "plain.hri", tmp_path / "noisy.hri"
-    usual = ["train", "speech", "--data", str(spoken), "--front-end", "cepstra"]
+    usual = ["train", "speech", "--data", str(spoken), "--front-end", "cepstra", "--no-network"]
     assert main([*usual, "--out", str(plain)]) == 0
     capsys.readouterr()
     assert main([*usual, "--noise", str(hum), "--noise", "pink", "--out", str(noisy), "--json", str(report)]) == 0

@@ -32,7 +32,8 @@ def test_train_says_what_it_measured_on_people_held_out(
     spoken: Path, tmp_path: Path, few_fillers: None, capsys
 ) -> None:
     path = tmp_path / "words.hri"
-    assert main(["train", "speech", "--data", str(spoken), "--out", str(path), "--front-end", "cepstra"]) == 0
+    quick = ["--front-end", "cepstra", "--no-network"]
+    assert main(["train", "speech", "--data", str(spoken), "--out", str(path), *quick]) == 0
     words = hri.WordRecognizer.load(path)
     found = words.held_out
     assert found is not None and found.labels == ("1", "2") and found.confusion.shape == (2, 2)
@@ -131,6 +132,10 @@ def test_threads_do_not_change_what_is_trained(spoken: Path, tmp_path: Path, few
                 str(spoken),
                 "--out",
                 str(tmp_path / "words.hri"),
+                "--option",
+                "num_embedding_copies=1",
+                "--option",
+                "num_noisy_copies=1",
             ]
             assert main(command) == 0 and hri.num_threads() == count
             models.append((tmp_path / "words.hri").read_bytes())

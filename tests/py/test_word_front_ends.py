@@ -21,6 +21,10 @@ from hri.training import NETWORK_MIN_PERSONS, choose_options
 
 pytestmark = pytest.mark.usefixtures("few_fillers")
 SLOPES = {"1": 800.0, "2": -350.0}
+FEWER = {"max_iterations": 2, "num_vtlp_factors": 1, "num_noisy_copies": 0, "num_embedding_copies": 1}
+FEWER |= {"network.num_epochs": 2, "network.num_channels": 8}
+QUICK = [word for name, value in FEWER.items() for word in ("--option", f"{name}={value}")]
+"""Tones are told apart by less than what people take."""
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -37,7 +41,7 @@ def words(request: pytest.FixtureRequest) -> package.WordRecognizer:
         for label, slope in SLOPES.items()
     ]
     x, y, persons = map(list, zip(*clips, strict=True))
-    made = package.WordRecognizer(front_end=request.param, max_iterations=4)
+    made = package.WordRecognizer(front_end=request.param, max_iterations=4, num_embedding_copies=1)
     return made.fit(x, y, sample_rate_hz=RATE_HZ, groups=persons)
 
 
@@ -131,7 +135,7 @@ def test_the_command_line_trains_with_either(
     spoken: Path, tmp_path: Path, hri: Callable[..., CommandResult], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     model = tmp_path / "words.hri"
-    command = ["train", "speech", "--data", spoken, "--out", model, "--no-fillers"]
+    command = ["train", "speech", "--data", spoken, "--out", model, "--no-fillers", *QUICK]
     plain = hri(*command, "--front-end", "cepstra")
     assert plain.code == 0 and "front end: cepstra" in plain.err, plain.err
     assert "--front-end both" in plain.err
@@ -158,8 +162,7 @@ def test_the_command_line_trains_a_network_when_asked_or_for_enough_speakers(
     spoken: Path, tmp_path: Path, hri: Callable[..., CommandResult], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     model = tmp_path / "words.hri"
-    command = ["train", "speech", "--data", spoken, "--out", model, "--no-fillers", "--front-end", "cepstra"]
-    command += ["--option", "network.num_epochs=2", "--option", "network.num_channels=8"]
+    command = ["train", "speech", "--data", spoken, "--out", model, "--no-fillers", "--front-end", "cepstra", *QUICK]
     trained = hri(*command, "--network")
     assert trained.code == 0, trained.err
     assert package.load(model).options.use_network
@@ -185,12 +188,11 @@ def test_evaluate_measures_what_train_makes(
 ) -> None:
     if not installed:
         monkeypatch.setattr("hri.recognition.word.embedding.PACKAGE", "no.such.package")
-    quick = ("--option", "network.num_epochs=2", "--option", "network.num_channels=8", "--option", "max_iterations=2")
     made = {}
     for command in ("train", "evaluate"):
         report = tmp_path / f"{command}.json"
         out = ("--out", tmp_path / "words.hri") if command == "train" else ()
-        done = hri(command, "speech", "--data", spoken, "--json", report, *quick, *out)
+        done = hri(command, "speech", "--data", spoken, "--json", report, *QUICK, *out)
         assert done.code == 0, done.err
         assert ("front end: both" if installed else "front end: cepstra") in done.err
         assert ("a network" in done.err) is not installed, "three speakers: beside cepstra alone"
@@ -199,7 +201,7 @@ def test_evaluate_measures_what_train_makes(
     assert made["train"]["front_end"] == ("both" if installed else "cepstra")
     chosen = choose_options(package.Dataset.load(spoken)).options
     assert chosen == ({"front_end": "both"} if installed else {"use_network": True}), "what Python chooses"
-    two = hri("evaluate", "speech", "--data", spoken, "--train-persons", "2", "--front-end", "cepstra", *quick)
+    two = hri("evaluate", "speech", "--data", spoken, "--train-persons", "2", "--front-end", "cepstra", *QUICK)
     assert two.code == 0 and "a network" not in two.err
     for flags in (("--network",), ("--front-end", "both")):
         assert hri("evaluate", "gesture", "--data", spoken, *flags).code == 2
