@@ -8,7 +8,6 @@ import importlib
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -20,19 +19,6 @@ ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 
 pytestmark = pytest.mark.usefixtures("few_fillers", "few_copies")
-
-
-@pytest.fixture(scope="module")
-def few_copies() -> Iterator[None]:
-    """Training with one copy of every word, where a page names no number: the programs are the same."""
-    make = hri.WordRecognizer.__init__
-
-    def made(self: hri.WordRecognizer, **options: Any) -> None:
-        make(self, **{"num_noisy_copies": 1, "num_embedding_copies": 1, "num_vtlp_factors": 1, **options})
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(hri.WordRecognizer, "__init__", made)
-        yield
 
 
 def blocks(page: Path, language: str) -> list[str]:

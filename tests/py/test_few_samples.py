@@ -106,7 +106,7 @@ def test_the_command_line_adds_and_removes_words(hri, spoken: Path, tmp_path: Pa
     assert hri("add-word", "--model", model, "--label", "0").code == 2
 
 
-def test_the_study_compares_with_training(tmp_path: Path, few_fillers: None) -> None:
+def test_the_study_compares_with_training(tmp_path: Path, few_fillers: None, few_copies: None) -> None:
     folder = tmp_path / "fsdd" / "recordings"
     folder.mkdir(parents=True)
     (tmp_path / "hindi_words" / "words").mkdir(parents=True)

@@ -51,10 +51,10 @@ def test_a_message_of_too_many_positions_is_refused_before_any_is_looked_at():
 
 def test_a_motion_is_not_slowed_to_more_rows_than_fit(tmp_path):
     names = [f"{side}arm_joint_{number}" for side in "rl" for number in range(1, 5)]
-    rough = np.zeros((40_000, len(names)))
-    rough[20_000] = 0.3
+    rough = np.zeros((15_000, len(names)))
+    rough[7_500] = 0.3
     with pytest.raises(InvalidArgument, match=r"it would have 1[0-9]{7} rows"):
-        slow_to_limits(Trajectory(names, 0.001, rough))
+        slow_to_limits(Trajectory(names, 0.0004, rough))
 
 
 def test_what_a_file_cannot_hold_is_written_otherwise_or_refused(tmp_path):

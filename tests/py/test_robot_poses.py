@@ -67,7 +67,7 @@ def test_the_check_is_told_where_the_other_joints_are():
 @cache
 def through_the_chest():
     """Two poses of a left arm that touch nothing, with the chest between them."""
-    rng = np.random.default_rng(1)
+    rng = np.random.default_rng(4)  # whose first poses are such
     names = SIDES["left"]
     low, high = np.array([HOAP2.limits_rad[HOAP2.index(name)] for name in names]).T
     while True:

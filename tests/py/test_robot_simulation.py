@@ -222,7 +222,7 @@ def test_a_video_is_filmed(tmp_path, backend):
 
 def test_films_and_stills_keep_the_time():
     """A film may have more pictures than the robot has steps; a still is no row of the motion."""
-    nod = Trajectory(["head_joint_2"], 2.0, [[0.0], [0.8], [0.0]])
+    nod = Trajectory(["head_joint_2"], 0.5, [[0.0], [0.1], [0.0]])
     shown = []
     with open_robot("kinematic") as robot:
         assert robot.perform(nod, lambda image, time_s: shown.append(time_s), fps=250.0, size=(16, 16))

@@ -127,7 +127,7 @@ def test_command_learns_the_words_of_one_person_by_their_names(
         assert hri("adapt", *place, *wrong).code == 2
 
 
-def test_the_study_learns_from_few_words_of_a_speaker(tmp_path: Path) -> None:
+def test_the_study_learns_from_few_words_of_a_speaker(tmp_path: Path, few_copies: None) -> None:
     for folder in ("fsdd/recordings", "hindi_words/digits", "hindi_words/words"):
         (tmp_path / folder).mkdir(parents=True)
     for person, base_hz in PERSONS.items():

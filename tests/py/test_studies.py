@@ -27,6 +27,7 @@ from hri.studies import (
     noise,
     rendering,
     robot_commands,
+    synthetic_speakers,
     tables,
     tempo,
     training_size,
@@ -36,7 +37,7 @@ from hri.studies.sweeps import measured
 from hri.studies.word_classifiers import CLASSIFIERS
 from hri.studies.word_features import FEATURES, approximation, denoised, load_words, read_words
 
-pytestmark = pytest.mark.usefixtures("few_fillers")
+pytestmark = pytest.mark.usefixtures("few_fillers", "few_copies")
 
 
 @pytest.fixture(scope="module")
@@ -287,7 +288,8 @@ def test_fewer_takes_are_done_sooner_and_said(hri, data_dir: Path, tmp_path: Pat
 
 
 @pytest.mark.skipif(shutil.which("espeak-ng") is None, reason="no espeak-ng")
-def test_synthetic_voices_are_added_to_people(data_dir: Path) -> None:
+def test_synthetic_voices_are_added_to_people(data_dir: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(synthetic_speakers, "TAKES", 1)
     result = run("synthetic-speakers", data_dir, data=["fsdd"], real=["0", "2"], synthetic=["0", "8"])
     found = {(row["real"], row["synthetic"]): row for row in result["rows"]}
     assert set(found) == {(0, 8), (2, 0), (2, 8)}, "no training without persons"

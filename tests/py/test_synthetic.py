@@ -272,16 +272,16 @@ def test_clip_size_is_the_callers() -> None:
         draw_clip(make_signer(0), "1", num_frames=2)
 
 
-@pytest.mark.parametrize(("kind", "suffix"), [("still", ".jpg"), ("clip", ".mp4")])
-def test_gesture_corpus_says_that_it_is_synthetic(tmp_path: Path, kind: str, suffix: str) -> None:
+@pytest.mark.parametrize(("kind", "suffix", "num_persons"), [("still", ".jpg", 2), ("clip", ".mp4", 1)])
+def test_gesture_corpus_says_that_it_is_synthetic(tmp_path: Path, kind: str, suffix: str, num_persons: int) -> None:
     calls = []
-    dataset = make_gesture_corpus(tmp_path, ["3", "0"], 2, 1, kind, progress=lambda *done: calls.append(done))
+    dataset = make_gesture_corpus(tmp_path, ["3", "0"], num_persons, 1, kind, progress=lambda *done: calls.append(done))
     assert dataset == Dataset.load(tmp_path)
     assert dataset.synthetic
     assert dataset.kind == "gesture"
     assert dataset.labels == ["0", "3"]
-    assert dataset.persons == ["signer01", "signer02"]
-    assert calls == [(i + 1, 4) for i in range(4)]
+    assert dataset.persons == ["signer01", "signer02"][:num_persons]
+    assert calls == [(i + 1, 2 * num_persons) for i in range(2 * num_persons)]
     for sample in dataset:
         assert sample.path.suffix == suffix
         assert len(read_frames(sample.path).frames) == (1 if kind == "still" else 36)
