@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
 mkdir "$work/source"
-tar --exclude=./.venv --exclude=./build --exclude=./hri_demo --exclude=./.git -cf - . | tar -xf - -C "$work/source"
+tar --exclude=__pycache__ --exclude=./.venv --exclude=./build --exclude=./hri_demo --exclude=./.git -cf - . | tar -xf - -C "$work/source"
 
 python=$PWD/.venv/bin/python
 pip=(-m pip --quiet --disable-pip-version-check)
