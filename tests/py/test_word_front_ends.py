@@ -24,7 +24,7 @@ SLOPES = {"1": 800.0, "2": -350.0}
 FEWER = {"max_iterations": 2, "num_vtlp_factors": 1, "num_noisy_copies": 0, "num_embedding_copies": 1}
 FEWER |= {"network.num_epochs": 2, "network.num_channels": 8}
 QUICK = [word for name, value in FEWER.items() for word in ("--option", f"{name}={value}")]
-"""Tones are told apart by less than what people take."""
+"""Tones are kept apart by less than what people take."""
 
 
 @pytest.fixture(scope="module", autouse=True)
