@@ -195,15 +195,9 @@ std::vector<detail::RescoredSpan> ConnectedWordRecognizer::spans_of(
   for (std::size_t i = 0; i < words.size(); ++i) {
     const VectorF named = rescorer_->scores(recorded, rate_hz, sample_of(timed[i].first_s),
                                             sample_of(timed[i].last_s));
-    const bool names_unknown = options_.unknown_words && named.size() > silence();
-    if (words[i].model == unknown_word() && !names_unknown) continue;
-    VectorF log_odds = VectorF::Zero(static_cast<Eigen::Index>(chains_.size()));
-    log_odds.head(silence()) = named.head(silence());
-    float best = named.head(silence()).maxCoeff();
-    if (names_unknown) best = std::max(best, named[silence()]);
-    log_odds.head(silence()).array() -= best;
-    if (names_unknown) log_odds[unknown_word()] = named[silence()] - best;
-    spans.push_back({words[i].first_frame, words[i].last_frame, std::move(log_odds)});
+    const auto of_words = named.head(silence());
+    const float best = options_.unknown_words ? named.maxCoeff() : of_words.maxCoeff();
+    spans.push_back({words[i].first_frame, words[i].last_frame, of_words.array() - best});
   }
   return spans;
 }

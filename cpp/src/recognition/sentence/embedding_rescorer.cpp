@@ -35,10 +35,10 @@ void EmbeddingRescorer::rescore(const std::vector<RescoredSpan>& spans, double w
     const VectorF of_frame =
         span.log_odds * static_cast<float>(weight / static_cast<double>(num_frames));
     Eigen::Index state = 0;
-    for (Eigen::Index chain = 0; chain < of_frame.size(); ++chain) {
-      const Eigen::Index num_states = chains[static_cast<std::size_t>(chain)].log_start.size();
+    for (Eigen::Index label = 0; label < of_frame.size(); ++label) {
+      const Eigen::Index num_states = chains[static_cast<std::size_t>(label)].log_start.size();
       log_emissions->block(span.first_frame, state, num_frames, num_states).array() +=
-          of_frame[chain];
+          of_frame[label];
       state += num_states;
     }
   }

@@ -5,7 +5,8 @@
 // where in the utterance they lie; the models of cepstra find that better than which words they
 // are. Where a first search finds a word, every word of the vocabulary is therefore lowered by how
 // far its posterior by the embedding lies below that of the likeliest one, and the utterance is
-// searched again: two-pass decoding.
+// searched again: two-pass decoding. A word that is none may be the likeliest, and is never
+// lowered: it is trained on synthetic voices, which a person's word is unlike, known or not.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +21,7 @@ namespace hri::detail {
 struct RescoredSpan {
   Eigen::Index first_frame = 0;
   Eigen::Index last_frame = 0;
-  VectorF log_odds;  ///< of every chain against the likeliest word, which has 0 as silence has
+  VectorF log_odds;  ///< of every label against the likeliest word, which may be none of them
 };
 
 class EmbeddingRescorer {
@@ -37,8 +38,8 @@ class EmbeddingRescorer {
   [[nodiscard]] VectorF scores(Span<const float> audio, int sample_rate_hz, std::ptrdiff_t first,
                                std::ptrdiff_t last) const;
 
-  /// Adds `weight` times the log odds, over the frames of a span alike, to the states of the chains
-  /// in `log_emissions`.
+  /// Adds `weight` times the log odds, over the frames of a span alike, to the states of the words
+  /// in `log_emissions`; `chains` are those of the words and others behind them.
   static void rescore(const std::vector<RescoredSpan>& spans, double weight,
                       const std::vector<WordChain>& chains, MatrixF* log_emissions);
 

@@ -79,8 +79,8 @@ TEST(EmbeddingRescorer, SpreadsTheLogOddsOfASpanOverItsFrames) {
   WordChain one;
   one.log_start = VectorD::Zero(1);
   MatrixF scores = MatrixF::Ones(10, 6);  // of two words and of silence
-  VectorF log_odds(3);
-  log_odds << 0, -4, 0;
+  VectorF log_odds(2);
+  log_odds << 0, -4;
   detail::EmbeddingRescorer::rescore({{2, 6, log_odds}}, 0.5, {two, three, one}, &scores);
   MatrixF expected = MatrixF::Ones(10, 6);
   expected.block(2, 2, 4, 3).array() -= 0.5F;  // 0.5 * 4 over four frames
