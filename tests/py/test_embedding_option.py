@@ -133,7 +133,6 @@ def test_weights_without_effect_are_refused(hri: Command, folder: Path) -> None:
     for arguments in (
         ("recognise", "--gesture", folder / "one.wav", *named),
         ("session", "--no-speech", *named),
-        ("serve", "--grammar", folder / "one.wav", *named),
         ("info", *named),
     ):
         refused = hri(*arguments)

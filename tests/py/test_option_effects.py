@@ -40,7 +40,6 @@ IN_NO_TEST = [
     "SubwordRecognizerOptions.num_adaptations",
     "WordRecognizerOptions.embedding_penalty",
     "WordRecognizerOptions.embedding_shrinkage",
-    "WordRecognizerOptions.embedding_weight",
 ]
 
 
