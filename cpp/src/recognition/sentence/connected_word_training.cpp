@@ -32,7 +32,9 @@ constexpr int kOfAllFolds = -2;  // fillers, of which no person is held out
 constexpr int kDefaultRateHz = 16000;
 constexpr int kSpeakersPerMixture = 2;
 constexpr int kMaxMixtures = 4;
-constexpr double kUsualWeight = 20;              // of the embedding, where nothing can be held out
+// Of the embedding, where nothing can be held out: the least that was chosen for a speaker of the
+// studies, as too little leaves the decision to the cepstra and too much takes it from them.
+constexpr double kWeightUnchosen = 20;
 constexpr Eigen::Index kMaxCodedFrames = 20000;  // that codebooks of a column each are trained on
 
 // The models of a training, before they are a recogniser.
@@ -118,6 +120,8 @@ class ConnectedWordTrainer {
     const std::vector<Fold> folds = train_folds(num_folds, num_steps, progress);
     TrainedWords all = train_without(kOfNoFold);
     if (!folds.empty()) choose(folds, all);
+    if (embedding_ != nullptr && options_.words.embedding_weight == 0)
+      options_.words.embedding_weight = kWeightUnchosen;
     ConnectedWordRecognizer result = recognizer(options_, std::move(all));
     if (progress) progress(num_steps, num_steps);
     return result;
@@ -431,9 +435,6 @@ ConnectedWordRecognizer ConnectedWordRecognizer::train(
     used.words.num_mixtures =
         std::clamp(static_cast<int>(speakers.size()) / per_mixture, 1, kMaxMixtures);
   }
-  // Where nothing can be held out: what was chosen for the data of the studies.
-  if (embedding != nullptr && !used.choose_penalty && used.words.embedding_weight == 0)
-    used.words.embedding_weight = kUsualWeight;
   return ConnectedWordTrainer(used, sorted_labels(labels), embedding, should_stop)
       .run(samples, fillers, progress);
 }

@@ -137,6 +137,18 @@ TEST(EmbeddingRescorer, LearnsHowTheWordsSound) {
             0);
 }
 
+TEST(EmbeddingRescorer, CountsWhereNothingCanBeHeldOut) {
+  std::vector<WordSample> once;
+  for (const WordSample& sample : clips().samples) {
+    if (once.empty() || (once.size() == 1 && sample.label != once.front().label))
+      once.push_back({sample.samples, sample.sample_rate_hz, sample.label, ""});
+  }
+  ASSERT_EQ(once.size(), 2U);
+  const auto of_two =
+      ConnectedWordRecognizer::train(once, small_options(), {}, {}, {}, embedding());
+  EXPECT_GT(of_two.options().words.embedding_weight, 0);
+}
+
 TEST(EmbeddingRescorer, LeavesUnknownWordsUnknown) {
   ConnectedWordRecognizerOptions options = small_options();
   options.unknown_words = true;
