@@ -11,7 +11,7 @@ from typing import Any
 
 import click
 
-from hri.cli.connected import connected_model
+from hri.cli.connected import connected_model, connected_model_option
 from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json, write_text
@@ -44,12 +44,7 @@ class _Task:
 
 @click.command(cls=CheckedCommand)
 @click.argument("files", nargs=-1, type=click.Path(exists=True, dir_okay=False), metavar="[FILE...]")
-@click.option(
-    "--model",
-    type=click.Path(exists=True, dir_okay=False),
-    metavar="MODEL",
-    help="A model from 'hri train-connected'; the default is the one kept per user.",
-)
+@connected_model_option
 @embedding_option
 @click.option(
     "--words", metavar="TEXT", help='What was said in every FILE, in its order: labels of the model, as "3 1 2".'

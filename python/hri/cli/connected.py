@@ -49,6 +49,12 @@ language_scale_option = click.option(
 )
 
 
+connected_model_option = click.option(
+    "--model",
+    type=click.Path(exists=True, dir_okay=False),
+    metavar="MODEL",
+    help="A model from 'hri train-connected'; the default is the one kept per user.",
+)
 front_end_option = click.option(
     "--front-end",
     type=click.Choice(["cepstra", "both"]),

@@ -12,7 +12,13 @@ from typing import Any
 
 import click
 
-from hri.cli.connected import LANGUAGE_SCALE, connected_model, language_scale_option, load_language
+from hri.cli.connected import (
+    LANGUAGE_SCALE,
+    connected_model,
+    connected_model_option,
+    language_scale_option,
+    load_language,
+)
 from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.live_screen import device_option, microphone, recording, stall_option
 from hri.cli.messages import note
@@ -36,12 +42,7 @@ _SEARCH = ("grammar", "language", "no_grammar", "no_language")
 
 @click.command(cls=CheckedCommand)
 @click.argument("files", nargs=-1, type=click.Path(exists=True, dir_okay=False), metavar="FILE...")
-@click.option(
-    "--model",
-    type=click.Path(exists=True, dir_okay=False),
-    metavar="MODEL",
-    help="A model from 'hri train-connected'; the default is the one kept per user.",
-)
+@connected_model_option
 @embedding_option
 @click.option(
     "--words",
