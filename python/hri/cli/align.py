@@ -16,16 +16,8 @@ from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json, write_text
 from hri.cli.recognizers import embedding_option, load_embedding
-from hri.cli.transcripts import (
-    EXIT_BAD_DATA,
-    NamedRecordings,
-    Said,
-    labels_of,
-    lines_of_words,
-    noting_faults,
-    read_said,
-    require_names_apart,
-)
+from hri.cli.transcript_tables import NamedRecordings, Said, read_said
+from hri.cli.transcripts import EXIT_BAD_DATA, labels_of, lines_of_words, noting_faults, require_names_apart
 from hri.core.errors import FormatError, InvalidArgument
 from hri.htk import MasterLabelFile, Transcription
 from hri.media import Audio, read_audio

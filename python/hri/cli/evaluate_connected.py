@@ -15,7 +15,7 @@ from hri.cli.messages import note
 from hri.cli.output import say_table, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import load_dataset, naming_options
-from hri.cli.transcripts import NamedRecordings, read_said
+from hri.cli.transcript_tables import NamedRecordings, read_said
 from hri.core.errors import FormatError, InvalidArgument
 from hri.datasets import Dataset
 from hri.language import WordErrors, count_word_errors
