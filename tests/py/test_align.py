@@ -225,10 +225,35 @@ def test_align_goes_on_behind_what_is_wrong(hri, kept: tuple[Path, Path], tmp_pa
 
 def test_a_row_of_a_master_label_file_is_named(hri, kept: tuple[Path, Path], tmp_path: Path) -> None:
     model, _ = kept
-    (tmp_path / "said.mlf").write_text('#!MLF!#\n"*/number.lab"\n1\n9\n.\n"*/gone.lab"\n1\n.\n')
+    shutil.copy(kept[1], tmp_path / "silent.wav")
+    (tmp_path / "said.mlf").write_text('#!MLF!#\n"*/number.lab"\n1\n9\n.\n"*/gone.lab"\n1\n.\n"*/silent.lab"\n.\n')
     done = hri("align", "--model", model, "--transcripts", tmp_path / "said.mlf")
     assert done.code == 3 and "said.mlf: row 4: '9' is no word of the model" in done.err
-    assert "'*/gone.lab' is the name of 0 recordings" in done.err
+    assert "said.mlf: row 6: '*/gone.lab' is the name of 0 recordings" in done.err
+    assert "said.mlf: row 9: '*/silent.lab' has no word" in done.err
+
+
+@pytest.mark.parametrize("output", [(), ("--mlf",), ("--textgrids",)], ids=["", "mlf", "textgrids"])
+def test_a_recording_that_stands_twice_is_named_and_the_others_are_aligned(
+    hri, kept: tuple[Path, Path], tmp_path: Path, output: tuple[str, ...]
+) -> None:
+    model, file = kept
+    shutil.copy(file, tmp_path / "twice.wav")
+    (tmp_path / "said.trn").write_text("1 2 2 1 (twice)\n1 2 2 1 (number)\n2 (twice)\n1 (gone)\n2 (gone)\n")
+    outputs = ("--json", tmp_path / "j", *(part for name in output for part in (name, tmp_path / "out")))
+    done = hri("--quiet", "align", "--model", model, "--transcripts", tmp_path / "said.trn", *outputs)
+    assert done.code == 3 and {line.split("\t")[0] for line in done.out.splitlines()} == {str(file)}
+    twice = f"said.trn: says 2 times what was said in {tmp_path / 'twice.wav'}, not once: row 1, row 3"
+    first, second = done.err.splitlines()
+    assert twice in first and "said.trn: row 4: 'gone' is the name of 0 recordings" in second
+    report = json.loads((tmp_path / "j").read_text())
+    assert report[str(file)]["text"] == "1 2 2 1" and twice in report[str(tmp_path / "twice.wav")]["error"]
+
+
+def test_an_empty_table_is_an_error(hri, kept: tuple[Path, Path], tmp_path: Path) -> None:
+    (tmp_path / "said.trn").write_text("\n")
+    refused = hri("align", "--model", kept[0], "--transcripts", tmp_path / "said.trn")
+    assert refused.code == 3 and "said.trn: names no recording" in refused.err
 
 
 def test_a_text_grid_covers_the_recording(hri, kept: tuple[Path, Path], tmp_path: Path) -> None:

@@ -421,6 +421,11 @@ def test_word_errors_are_measured_with_speakers_held_out(
     said.write_text("1 2 2 1 (a_low)\n1 2 2 (c)\n")
     refused = hri("evaluate", "connected", *arguments)
     assert refused.code == 3 and "'c' is the name of 0 recordings" in refused.err
+    said.write_text("1 2 2 1 (b)\n1 2 2 1 (b)\n")
+    refused = hri("evaluate", "connected", *arguments)
+    assert (
+        refused.code == 3 and "said.mlf: says 2 times what was said in" in refused.err and "row 1, row 2" in refused.err
+    )
     said.write_text("1 2 2 1\n")
     assert "row 1: is not words and the name" in hri("evaluate", "connected", *arguments).err
     for wrong in (("--folds", 2), ("--noise", "white"), ("--network",)):

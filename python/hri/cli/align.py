@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,22 +15,13 @@ from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json, write_text
 from hri.cli.recognizers import embedding_option, load_embedding
-from hri.cli.transcript_tables import NamedRecordings, Said, read_said
+from hri.cli.transcript_tables import Recording, Said, recordings_among, recordings_below
 from hri.cli.transcripts import EXIT_BAD_DATA, labels_of, lines_of_words, noting_faults, require_names_apart
 from hri.core.errors import FormatError, InvalidArgument
 from hri.htk import MasterLabelFile, Transcription
 from hri.media import Audio, read_audio
 from hri.recognition import ConnectedWordRecognizer, Transcript
 from hri.recognition.sentence.transcript import UNKNOWN
-
-
-@dataclass(frozen=True)
-class _Task:
-    """A recording, by the name that its results have, and what was said there; or why that is not known."""
-
-    name: str
-    said: Said | None = None
-    fault: str = ""
 
 
 @click.command(cls=CheckedCommand)
@@ -95,11 +85,11 @@ def align(
     if words is not None:
         said = Said("", words.split(), ["--words"] * len(words.split()), "--words")
         _require_words(said, recognizer)
-        tasks = [_Task(file, said) for file in files]
+        tasks = [Recording(file, said) for file in files]
     else:
         assert transcripts is not None
-        tasks = _tasks_of(files, transcripts) if files else _tasks_below(Path(transcripts).parent, transcripts)
-    names = [task.name for task in tasks]
+        tasks = recordings_among(files, transcripts) if files else recordings_below(transcripts)
+    names = [task.name for task in tasks if task.said is not None]
     if mlf is not None:
         require_names_apart([_label_path(name) for name in names], names, "--mlf")
     if textgrids is not None:
@@ -127,33 +117,6 @@ def align(
         sys.exit(EXIT_BAD_DATA)
 
 
-def _tasks_of(files: tuple[str, ...], table: str) -> list[_Task]:
-    """The given recordings, with what the table says of each."""
-    recordings = NamedRecordings(dict.fromkeys(Path(file) for file in files))
-    rows: dict[Path, list[Said]] = {}
-    for said in read_said(table):
-        for path in recordings.of(said.name):
-            rows.setdefault(path, []).append(said)
-    tasks = []
-    for file in files:
-        of_file = rows.get(Path(file), [])
-        fault = f"{table}: says {len(of_file)} times what was said in {file}, not once"
-        tasks.append(_Task(file, of_file[0]) if len(of_file) == 1 else _Task(file, fault=fault))
-    return tasks
-
-
-def _tasks_below(root: Path, table: str) -> list[_Task]:
-    """All recordings of the table."""
-    recordings = NamedRecordings.below(root)
-    tasks = []
-    for said in read_said(table):
-        try:
-            tasks.append(_Task(str(recordings.one_of(said, root)), said))
-        except FormatError as error:
-            tasks.append(_Task(said.name, fault=str(error)))
-    return tasks
-
-
 def _require_words(said: Said, recognizer: ConnectedWordRecognizer) -> None:
     known = [str(label) for label in recognizer.classes_] + [UNKNOWN] * recognizer.options.unknown_words
     for word, place in zip(said.words, said.places, strict=True):
@@ -163,7 +126,7 @@ def _require_words(said: Said, recognizer: ConnectedWordRecognizer) -> None:
         raise InvalidArgument(f"{said.place}: {said.name!r} has no word")
 
 
-def _aligned(task: _Task, recognizer: ConnectedWordRecognizer) -> tuple[Audio, Transcript]:
+def _aligned(task: Recording, recognizer: ConnectedWordRecognizer) -> tuple[Audio, Transcript]:
     if task.said is None:
         raise FormatError(task.fault)
     _require_words(task.said, recognizer)

@@ -15,7 +15,7 @@ from hri.cli.messages import note
 from hri.cli.output import say_table, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import load_dataset, naming_options
-from hri.cli.transcript_tables import NamedRecordings, read_said
+from hri.cli.transcript_tables import recordings_below
 from hri.core.errors import FormatError, InvalidArgument
 from hri.datasets import Dataset
 from hri.language import WordErrors, count_word_errors
@@ -83,16 +83,17 @@ def read_strings(path: str, persons: Sequence[str]) -> list[SpokenString]:
     Raises
     ------
     FormatError
-        For a line of another form, and a name that belongs to no recording, or to several.
+        For a line of another form, a name that belongs to no recording, or to several, and a recording of several rows.
     """
     root = Path(path).parent
-    sounds = NamedRecordings.below(root)
     strings = []
-    for said in read_said(path):
-        found = sounds.one_of(said, root)
+    for recording in recordings_below(path):
+        if recording.said is None:
+            raise FormatError(recording.fault)
+        found = Path(recording.name)
         parts = {part for piece in found.relative_to(root).parts for part in re.split(r"[_.-]", piece)}
         speakers = [person for person in persons if person in parts]
-        strings.append(SpokenString(found, said.words, speakers[0] if len(speakers) == 1 else ""))
+        strings.append(SpokenString(found, recording.said.words, speakers[0] if len(speakers) == 1 else ""))
     if not any(string.words for string in strings):
         raise FormatError(f"{path}: no recording has a word")
     return strings
