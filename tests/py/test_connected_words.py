@@ -179,8 +179,19 @@ def test_a_stream_gives_what_it_has_and_ends_as_the_file_does(
 def test_what_cannot_be_done_is_refused(words: ConnectedWordRecognizer, sentence: np.ndarray) -> None:
     with pytest.raises(NotFittedError):
         ConnectedWordRecognizer().recognise(sentence, RATE_HZ)
-    with pytest.raises(InvalidArgument, match=r"num_words is 0, must lie in 1..1000"):
-        words.recognise(sentence, RATE_HZ, num_words=0)
+    for name, value, message in (
+        ("num_words", 0, r"is 0, must lie in 1\.\.1000"),
+        ("num_words", 2**70, r"is \d+, must lie in 1\.\.1000"),
+        ("num_words", 1.5, r"must be an integer, got 1\.5"),
+        ("num_words", True, "must be an integer, got True"),
+        ("num_alternatives", -1, r"is -1, must lie in 0\.\.1000"),
+        ("num_alternatives", "2", "must be an integer, got '2'"),
+    ):
+        with pytest.raises(InvalidArgument, match=f"{name} {message}"):
+            words.recognise(sentence, RATE_HZ, **{name: value})
+    assert len(words.recognise(sentence, RATE_HZ, num_words=np.int64(2)).words) == 2
+    with pytest.raises(InvalidArgument, match=r"num_words must be an integer, got 1\.5"):
+        words.lattice(sentence, RATE_HZ, num_words=1.5)
     with pytest.raises(InvalidArgument, match="differ in length"):
         ConnectedWordRecognizer().fit([sentence], ["1", "2"], sample_rate_hz=RATE_HZ)
     with pytest.raises(InvalidArgument, match=r"words\.use_network must be false"):

@@ -31,9 +31,15 @@ _LANGUAGE, _GRAMMAR = "language", "grammar"
 """Fields of the model file."""
 
 
-def _require_number(num_words: int | None) -> None:
-    if num_words is not None and num_words < 1:
-        raise InvalidArgument(f"num_words is {num_words}, must lie in 1..1000")
+_MOST = 1000
+"""Words or alternatives that can be asked for."""
+
+
+def _require_number(name: str, value: object, least: int) -> None:
+    if isinstance(value, bool) or not isinstance(value, int | np.integer):
+        raise InvalidArgument(f"{name} must be an integer, got {value!r}")
+    if not least <= value <= _MOST:
+        raise InvalidArgument(f"{name} is {value}, must lie in {least}..{_MOST}")
 
 
 def _speakers_of(fillers: Sequence[FillerWord]) -> list[str]:
@@ -245,11 +251,13 @@ class ConnectedWordRecognizer(Recognizer):
         ------
         InvalidArgument
             For an array without a rate, of several channels, not finite or shorter than one frame, and for a number of
-            words or alternatives outside 1..1000.
+            words outside 1..1000 or of alternatives outside 0..1000.
         FormatError, IoError
             For a file that is no recording.
         """
-        _require_number(num_words)
+        if num_words is not None:
+            _require_number("num_words", num_words, 1)
+        _require_number("num_alternatives", num_alternatives, 0)
         clip = as_audio(audio, sample_rate_hz)
         words = self._trained
         with naming_file(clip.path):
@@ -272,9 +280,9 @@ class ConnectedWordRecognizer(Recognizer):
         -------
         Transcript
             Of these words, with their times as `recognise` gives them. ``confidence`` is what the word has among all
-            sentences of words in any order: near 0 where another word was said. It marks no word ``unknown``. Not
-            ``complete`` without speech, and where the recording is too short for so many words: the words are then
-            those of the best beginning.
+            sentences of words in any order: near 0 where another word was said; it marks no word ``unknown``, only
+            ``<unk>`` itself is. Not ``complete`` without speech, and where the recording is too short for so many
+            words: the words are then those of the best beginning.
 
         Raises
         ------
@@ -311,7 +319,8 @@ class ConnectedWordRecognizer(Recognizer):
         InvalidArgument, FormatError, IoError
             As `recognise` does, and for a recording too long for a lattice.
         """
-        _require_number(num_words)
+        if num_words is not None:
+            _require_number("num_words", num_words, 1)
         clip = as_audio(audio, sample_rate_hz)
         words = self._trained
         with naming_file(clip.path):
