@@ -21,8 +21,11 @@ HTK_UNITS_PER_S = 1e7
 
 
 def lines_of_words(transcript: Transcript) -> list[str]:
-    """A line a word: its beginning and end in seconds, and the word."""
-    return [f"{word.first_s:.3f}\t{word.last_s:.3f}\t{word.label}" for word in transcript.words]
+    """A line a word: its beginning and end in seconds, and the word, ``<unk>`` where it is unknown."""
+    return [
+        f"{word.first_s:.3f}\t{word.last_s:.3f}\t{label}"
+        for label, word in zip(transcript.labels, transcript.words, strict=True)
+    ]
 
 
 def labels_of(transcript: Transcript) -> Transcription:
