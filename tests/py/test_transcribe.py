@@ -74,3 +74,27 @@ def test_a_stream_takes_what_is_said_behind_the_wake_word(hri, model: Path, numb
     assert column(hri(*read, "--wake", "2", "--times").out, 2) == ["2", "1"]
     refused = hri(*read, "--wake", "robot")
     assert refused.code == 3 and "wake_word is 'robot', which is no label" in refused.err
+
+
+def test_a_confusion_network_is_printed(hri, model: Path, number: Path, tmp_path: Path) -> None:
+    recognizer = ConnectedWordRecognizer.load(model)
+    _, first_s, frame_s = recognizer.lattice(number)
+    slots = recognizer.confusion_network(number)
+    done = hri("transcribe", number, "--model", model, "--confusions", "--json", tmp_path / "j")
+    assert done.code == 0
+    report = json.loads((tmp_path / "j").read_text())[str(number)]
+    assert report["text"] == "1 2 2 1" and len(report["confusions"]) == len(slots)
+    for place, slot, line in zip(report["confusions"], slots, done.out.splitlines(), strict=True):
+        assert place["first_s"] == pytest.approx(first_s + slot.first_frame * frame_s)
+        assert place["last_s"] == pytest.approx(first_s + slot.last_frame * frame_s)
+        words = [(word["label"], word["probability"]) for word in place["words"]]
+        assert words == [(None if index < 0 else str(recognizer.classes_[index]), p) for index, p in slot.entries]
+        fields = [f"{place['first_s']:.3f}", f"{place['last_s']:.3f}"]
+        assert line.split("\t") == fields + [f"{label or '-'} {p:.3f}" for label, p in words if p >= 0.0005]
+    best = [field.split()[0] for field in column(done.out, 2)]
+    assert [label for label in best if label != "-"] == WORDS and any(len(slot.entries) > 2 for slot in slots)
+    three = hri("transcribe", number, "--model", model, "--confusions", "--words", 3)
+    assert len([field for field in column(three.out, 2) if field[0] != "-"]) == 3
+    for other in (("--times",), ("--alternatives", 2), ("--stream",)):
+        refused = hri("transcribe", number, "--model", model, "--confusions", *other)
+        assert refused.code == 2 and "--confusions" in refused.err

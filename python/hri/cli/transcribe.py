@@ -36,6 +36,8 @@ from hri.recognition.sentence.transcript import UNKNOWN
 
 SILENCE = "<sil>"
 """The word of silence in lattices."""
+NO_WORD = "-"
+"""What stands for none where words are printed with their probabilities."""
 _SEARCH = ("grammar", "language", "no_grammar", "no_language")
 """Parameters that say which sentences there are: one of them at most."""
 
@@ -68,6 +70,12 @@ _SEARCH = ("grammar", "language", "no_grammar", "no_language")
 @click.option("--no-language", is_flag=True, help="Without the language model that the model holds.")
 @click.option(
     "--alternatives", type=click.IntRange(0, 1000), default=0, metavar="N", help="Print the N best sentences."
+)
+@click.option(
+    "--confusions",
+    is_flag=True,
+    help="Print a line for each place where a word may have been said: its beginning and end in seconds, then the "
+    "words with their probabilities, '-' for none.",
 )
 @click.option(
     "--lattices", type=click.Path(file_okay=False, path_type=Path), metavar="DIR", help="Write lattices (.slf)."
@@ -106,6 +114,7 @@ def transcribe(
     no_grammar: bool,
     no_language: bool,
     alternatives: int,
+    confusions: bool,
     lattices: Path | None,
     mlf: Path | None,
     film: Path | None,
@@ -125,6 +134,7 @@ def transcribe(
     Examples:
       hri transcribe number.wav
       hri transcribe number.wav --words 4
+      hri transcribe number.wav --confusions
       hri transcribe command.wav --grammar robot.jsgf --alternatives 3
       hri transcribe command.wav --grammar robot.jsgf --robot robot.webm
       hri transcribe number.wav --language digits.arpa --language-scale 15
@@ -136,12 +146,15 @@ def transcribe(
     if film is not None and (grammar is None or len(files) != 1 or stream):
         raise click.UsageError("--robot goes with --grammar and one recording")
     if stream:
-        refuse_given(("words", "alternatives", "lattices", "mlf"), "is for whole recordings, without --stream")
+        refuse_given(
+            ("words", "alternatives", "confusions", "lattices", "mlf"), "is for whole recordings, without --stream"
+        )
         refuse_given(("json_path",), "goes without --stream, which writes its lines as JSON")
     else:
         refuse_given(("wake", "device", "stall_s"), "goes with --stream")
-    if times and alternatives:
-        raise click.UsageError("--times and --alternatives exclude each other")
+    printed = [name for name in ("times", "alternatives", "confusions") if click.get_current_context().params[name]]
+    if len(printed) > 1:
+        raise click.UsageError(f"--{printed[0]} and --{printed[1]} exclude each other")
     if words is not None:
         refuse_given((*_SEARCH, "language_scale"), "and --words exclude each other: so many words come in any order")
     for name in _SEARCH:
@@ -171,10 +184,15 @@ def transcribe(
                 recognizer.recognise(file, num_words=words, num_alternatives=alternatives), recognizer, words
             )
             found[file] |= transcript.to_dict()
+            if confusions:
+                found[file]["confusions"] = _confusions(recognizer, file, words)
         if "error" in found[file]:
             continue
         labels.append((str(_label_path(file)), labels_of(transcript)))
-        for line in _lines(transcript, times, alternatives > 0):
+        lines = (
+            _lines_of_places(found[file]["confusions"]) if confusions else _lines(transcript, times, alternatives > 0)
+        )
+        for line in lines:
             say(f"{file}\t{line}" if len(files) > 1 else line, json_path)
         for text in transcript.notes:
             note(f"{file}: {text}")
@@ -255,6 +273,30 @@ def _lines(transcript: Transcript, times: bool, alternatives: bool) -> list[str]
     if alternatives:
         return [f"{other.log_score:.1f}\t{other.text}" for other in transcript.alternatives]
     return [transcript.text + "".join(f"\t{slot}={value}" for slot, value in transcript.slots.items())]
+
+
+def _confusions(recognizer: ConnectedWordRecognizer, file: str, num_words: int | None) -> list[dict[str, Any]]:
+    """The confusion network, with seconds and labels in place of frames and models; None: no word."""
+    lattice, first_s, frame_s = recognizer.lattice(file, num_words=num_words)
+    labels = [*map(str, recognizer.classes_), SILENCE, UNKNOWN]
+    return [
+        {
+            "first_s": first_s + slot.first_frame * frame_s,
+            "last_s": first_s + slot.last_frame * frame_s,
+            "words": [{"label": labels[model] if model >= 0 else None, "probability": p} for model, p in slot.entries],
+        }
+        for slot in lattice.confusion_network(recognizer.trained_options.confidence_scale)
+    ]
+
+
+def _lines_of_places(confusions: list[dict[str, Any]]) -> list[str]:
+    """What is printed of a confusion network: without what is rounded to 0."""
+    lines = []
+    for place in confusions:
+        shares = [(f"{word['probability']:.3f}", word["label"] or NO_WORD) for word in place["words"]]
+        words = [f"{label} {share}" for share, label in shares if float(share) > 0]
+        lines.append("\t".join([f"{place['first_s']:.3f}", f"{place['last_s']:.3f}", *words]))
+    return lines
 
 
 def _follow(recognizer: ConnectedWordRecognizer, source: AudioSource, wake: str, times: bool, prefix: str) -> None:
