@@ -60,6 +60,17 @@ def test_stop_needs_no_wake_word() -> None:
     assert judged(Attention("stop"), (0, stop), (1, left)) == [WAKE, COMMAND]
 
 
+def test_what_is_judged_early_and_is_no_command_leaves_the_end_as_it_was() -> None:
+    for said, is_command, end in (("left", True, IGNORED), ("robot", False, COMMAND)):
+        tracker = AttentionTracker(Attention("robot", within_s=2.0))
+        assert tracker.judge(0, 0.5, heard("robot", 1))[0] == WAKE
+        assert tracker.judge_early(1, 1.5, heard(said, 1)) is is_command
+        assert tracker.judge(1, 2, heard("left", 1))[0] == end
+    tracker = AttentionTracker(Attention("robot", within_s=2.0))
+    assert not tracker.judge_early(1, 1.5, heard("robot", 1))
+    assert tracker.judge(1, 2, heard("left", 1))[0] == IGNORED  # the wake word itself had not ended
+
+
 def test_the_threshold_may_be_another_than_the_models() -> None:
     assert with_threshold(heard("a", 1.0), 2.0).status == UNKNOWN
     assert with_threshold(heard("a", 1.0), 2.0).label == UNKNOWN

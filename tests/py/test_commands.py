@@ -17,7 +17,7 @@ from hri.datasets import Dataset
 from hri.fusion import FusionOptions
 from hri.io import write_wav_pcm16
 from hri.language import Grammar
-from hri.live import ArraySource, Listener
+from hri.live import ArraySource, Attention, Event, Listener
 from hri.recognition import ConnectedWordRecognizer
 from hri.robot import open_robot
 from hri.session import SessionOptions
@@ -147,6 +147,34 @@ def test_stop_does_not_wait_for_the_pause_that_ends_a_command(commands: CommandR
 
     assert [label for label, *_ in decided_in(160)] == ["2 1 2", "1", "2 1"]
     assert decided_in(160) == decided_in(1000) == decided_in(len(stream))
+
+
+def test_an_urgent_command_needs_the_wake_word_unless_it_always_counts(commands: CommandRecognizer) -> None:
+    def heard(attention: Attention, *said: np.ndarray) -> list[Event]:
+        found = Listener(commands, attention=attention, urgent=("1",)).listen(
+            ArraySource(np.concatenate(said), RATE_HZ)
+        )
+        return [event for event in found if "first_s" in event.fields and event.event != "speech_end"]
+
+    def kinds(events: list[Event]) -> list[tuple[str, str]]:
+        return [(event.event, event.fields["final"]) for event in events if event.event != "speech_start"]
+
+    wake, stop, command = tones("2 2"), tones("1"), tones("2 1 2")
+    asleep = heard(Attention("2 2", always=()), stop)
+    assert kinds(asleep) == [("ignored", "")]
+    always = heard(Attention("2 2", always=("1",)), stop)
+    assert kinds(always) == [("decision", "1")] and always[-1].time < asleep[-1].time - 0.1
+    assert kinds(heard(Attention("2 2", 5.0, always=()), wake, stop)) == [("wake", ""), ("decision", "1")]
+    assert kinds(heard(Attention("2 2", 0.5, always=()), wake, stop)) == [("wake", ""), ("ignored", "")]
+    assert kinds(heard(Attention("2 2", always=()), command, stop)) == [("ignored", "")] * 2
+    # Of an utterance that began in time, what is urgent counts, however late it is said.
+    amid = (wake, command[: -5 * RATE_HZ // 4], stop[5 * RATE_HZ // 4 :])
+    woken = heard(Attention("2 2", 60.0, always=()), *amid)
+    assert kinds(woken) == [("wake", ""), ("decision", "1")]
+    _, waked, begun, stopped = woken
+    late_s = stopped.fields["first_s"] - 0.1 - waked.fields["last_s"]
+    assert begun.fields["first_s"] < waked.fields["last_s"] + late_s
+    assert kinds(heard(Attention("2 2", late_s, always=()), *amid)) == [("wake", ""), ("decision", "1")]
 
 
 def test_in_a_session_stop_by_itself_counts_as_soon_as_a_word_does(commands: CommandRecognizer) -> None:

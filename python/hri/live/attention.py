@@ -72,6 +72,14 @@ class AttentionTracker:
             return COMMAND, decision
         return COMMAND if awake else IGNORED, decision
 
+    def judge_early(self, first_s: float, last_s: float, decision: Decision) -> bool:
+        """Whether what has been said so far of an utterance is a command; where it is none, the end is still judged."""
+        awake_until_s = self._awake_until_s
+        is_command = self.judge(first_s, last_s, decision)[0] == COMMAND
+        if not is_command:
+            self._awake_until_s = awake_until_s
+        return is_command
+
 
 def with_threshold(decision: Decision, min_score: float | None) -> Decision:
     """`decision` as if the model's threshold had been `min_score`; None leaves it as it is."""

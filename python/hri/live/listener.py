@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Collection, Iterator
 from contextlib import closing
@@ -47,7 +48,8 @@ class Listener:
         `sure`; the decision on one that was rejected by at most `NEAR` names it in its field `near`, for those to whom
         missing it is worse. Commands of several words end with a long pause; labels of a `CommandRecognizer` given here
         count at one as short as behind a single word, and by themselves at the first pause, too, and need no more than
-        `CommandRecognizer.recognise_early` asks for. What else is said until the end is then not decided on.
+        `CommandRecognizer.recognise_early` and `attention` ask for. What else is said until the end is then not decided
+        on.
     sure : callable of Decision, optional
         Which decisions of a `WordRecognizer` on urgent words count at a pause: by default all that are recognised.
 
@@ -103,40 +105,52 @@ class Listener:
         """
         tracker = AttentionTracker(self._attention)
         early: Event | None = None
+        begun_s = math.inf
         with closing(self._finder.process(source, model=self._model_id)) as results:
             for event, said in results:
                 if said is None:
+                    if event.event == events.SPEECH_START:
+                        begun_s = event.fields["first_s"]
+                    elif event.event == events.SPEECH_DROPPED:
+                        begun_s = math.inf
                     yield event
                     continue
                 known = early if early is not None and _overlap(event, early) else None
                 if event.event == events.PAUSE:
-                    decided = None if known else self._decide_early(event, said, source.sample_rate_hz, tracker)
+                    decide = self._decide_early
+                    decided = None if known else decide(event, said, source.sample_rate_hz, tracker, begun_s)
                     if decided is not None:
                         early = decided
                         yield decided
-                elif known is not None:
+                    continue
+                begun_s = math.inf
+                if known is not None:
                     yield self._with_whole(event, said, source.sample_rate_hz, known)
                 else:
                     yield event
                     yield self._decide(event, said, source.sample_rate_hz, tracker)
 
-    def _decide_early(self, event: Event, said: Samples, rate: int, tracker: AttentionTracker) -> Event | None:
-        """The decision on what has been said of an utterance, where that is urgent."""
+    def _decide_early(
+        self, event: Event, said: Samples, rate: int, tracker: AttentionTracker, begun_s: float
+    ) -> Event | None:
+        """The decision on what has been said of an utterance that began at `begun_s`, where that is urgent."""
         if not self._urgent:
             return None
         begun = time.perf_counter()
-        decision: Decision | None
+        decided: Decision | None
         if isinstance(self._recognizer, CommandRecognizer):
-            decision = self._recognizer.recognise_early(said, self._urgent, rate)
+            decided = self._recognizer.recognise_early(said, self._urgent, rate)
         else:
-            decision = with_threshold(self._recognizer.recognise(said, rate), self._attention.min_score)
-            if decision.status != RECOGNISED or decision.label not in self._urgent:
-                return None
-            if self._sure is not None and not self._sure(decision):
-                return None
-            if tracker.judge(event.fields["first_s"], event.fields["last_s"], decision)[0] != COMMAND:
-                return None
-        if decision is None:
+            decided = self._recognizer.recognise(said, rate)
+        if decided is None:
+            return None
+        decision = with_threshold(decided, self._attention.min_score)
+        if decision.status != RECOGNISED or decision.label not in self._urgent:
+            return None
+        if self._sure is not None and isinstance(self._recognizer, WordRecognizer) and not self._sure(decision):
+            return None
+        # Of commands a part may have been said: whether it counts depends on when the utterance began, as at its end.
+        if not tracker.judge_early(min(begun_s, event.fields["first_s"]), event.fields["last_s"], decision):
             return None
         compute_ms = 1000 * (time.perf_counter() - begun)
         fields = event.fields | decision_fields(decision, self._locale, self._model_id)
