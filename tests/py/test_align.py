@@ -256,6 +256,23 @@ def test_an_empty_table_is_an_error(hri, kept: tuple[Path, Path], tmp_path: Path
     assert refused.code == 3 and "said.trn: names no recording" in refused.err
 
 
+def test_labels_with_spaces_are_quoted_in_messages(hri, spoken: Path, kept: tuple[Path, Path], tmp_path: Path) -> None:
+    samples = Dataset.load(spoken).samples
+    labels = ["go left" if s.label == "2" else s.label for s in samples]
+    model = ConnectedWordRecognizer(words=QUICK, choose_penalty=False).fit([s.path for s in samples], labels)
+    model.save(tmp_path / "spaced.hri")
+    (tmp_path / "said.trn").write_text("go left (number)\n")
+    for source in (("--words", "go left"), ("--transcripts", tmp_path / "said.trn")):
+        refused = hri("align", kept[1], "--model", tmp_path / "spaced.hri", *source)
+        assert refused.code == 3 and "'go' is no word of the model, whose words are 1 'go left'; those " in refused.err
+        assert "with a space can be given in a master label file alone" in refused.err
+    (tmp_path / "said.mlf").write_text('#!MLF!#\n"*/number.lab"\n1\n"go left"\ngo left\n.\n')
+    read = ("align", kept[1], "--model", tmp_path / "spaced.hri", "--transcripts", tmp_path / "said.mlf")
+    assert "row 5: 'go' is no word of the model, whose words are 1 'go left'\n" in hri(*read).err
+    (tmp_path / "said.mlf").write_text('#!MLF!#\n"*/number.lab"\n1\n"go left"\n.\n')
+    assert [line.split("\t")[2] for line in hri(*read).out.splitlines()] == ["1", "go left"]
+
+
 def test_a_text_grid_covers_the_recording(hri, kept: tuple[Path, Path], tmp_path: Path) -> None:
     model, file = kept
     done = hri("align", file, "--model", model, "--words", "1 2 2 1", "--textgrids", tmp_path / "grids")

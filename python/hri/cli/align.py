@@ -12,7 +12,7 @@ import click
 
 from hri.cli.connected import connected_model, connected_model_option
 from hri.cli.groups import CheckedCommand
-from hri.cli.messages import note
+from hri.cli.messages import listed, note
 from hri.cli.output import OutputFile, json_option, say, write_json, write_text
 from hri.cli.recognizers import embedding_option, load_embedding
 from hri.cli.transcript_tables import Recording, Said, recordings_among, recordings_below
@@ -119,9 +119,11 @@ def align(
 
 def _require_words(said: Said, recognizer: ConnectedWordRecognizer) -> None:
     known = [str(label) for label in recognizer.classes_] + [UNKNOWN] * recognizer.options.unknown_words
+    spaced = not said.in_master and any(label.split() != [label] for label in known)
+    hint = "; those with a space can be given in a master label file alone" if spaced else ""
     for word, place in zip(said.words, said.places, strict=True):
         if word not in known:
-            raise InvalidArgument(f"{place}: {word!r} is no word of the model, whose words are {' '.join(known)}")
+            raise InvalidArgument(f"{place}: {word!r} is no word of the model, whose words are {listed(known)}{hint}")
     if not said.words:
         raise InvalidArgument(f"{said.place}: {said.name!r} has no word")
 

@@ -13,7 +13,7 @@ import click
 
 from hri.cli.choices import names
 from hri.cli.groups import CheckedCommand, FiniteRange, refuse_given
-from hri.cli.messages import note
+from hri.cli.messages import listed, note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import (
@@ -163,9 +163,9 @@ def train_connected(
     else:
         SpokenWords.remove_beside(path)
     say(str(path), json_path)
-    note(f"{len(dataset)} recordings, {len(dataset.labels)} labels: {' '.join(dataset.labels)}")
+    note(f"{len(dataset)} recordings, {len(dataset.labels)} labels: {listed(dataset.labels)}")
     if spellings:
-        note(f"not recorded, said by {num_voices} synthetic voices: {' '.join(spellings)}")
+        note(f"not recorded, said by {num_voices} synthetic voices: {listed(spellings)}")
     note(f"insertion penalty: {recognizer.insertion_penalty:g}")
     note(_what_words_are_of(recognizer))
     if model is not None:
@@ -246,7 +246,7 @@ def load_language(path: str, labels: Sequence[str]) -> NGramModel:
     if model.order > 2:
         raise InvalidArgument(f"{path}: has order {model.order}; connected words take language models of order 1 or 2")
     known = set(model.words)
-    missing = " ".join(label for label in labels if label not in known)
+    missing = listed(label for label in labels if label not in known)
     if missing and UNKNOWN not in known:
         raise InvalidArgument(f"{path}: does not have these labels, and no {UNKNOWN}: {missing}")
     if missing:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from hri.cli.connected import connected_embedding, connected_options
-from hri.cli.messages import note
+from hri.cli.messages import listed, note
 from hri.cli.output import say_table, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import load_dataset, naming_options
@@ -106,7 +106,7 @@ def _tell_of_words(strings: Sequence[SpokenString], dataset: Dataset, path: str)
     if len(unknown) == len(said):
         raise InvalidArgument(f"{path}: none of its words is a label of {dataset.root}")
     if unknown:
-        note(f"{path}: no labels of {dataset.root}, and errors wherever they stand: {' '.join(unknown)}")
+        note(f"{path}: no labels of {dataset.root}, and errors wherever they stand: {listed(unknown)}")
     others = [string.path.name for string in strings if not string.person]
     if others:
         note(
@@ -121,7 +121,7 @@ def _trained_without(
     samples = [sample for sample in dataset.samples if not person or sample.person != person]
     missing = sorted(set(dataset.labels) - {sample.label for sample in samples})
     if missing:
-        raise InvalidArgument(f"only {person}, who is held out, says {' '.join(missing)}")
+        raise InvalidArgument(f"only {person}, who is held out, says {listed(missing)}")
     return recognizer.fit(
         [read_audio(sample.path) for sample in samples],
         [sample.label for sample in samples],

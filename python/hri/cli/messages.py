@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import logging
 import warnings
+from collections.abc import Iterable
 
 import click
 
@@ -29,6 +30,11 @@ def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
 def note(text: str) -> None:
     """A message for people, on standard error unless ``hri --quiet``."""
     _COMMANDS.info(text)
+
+
+def listed(labels: Iterable[str]) -> str:
+    """Labels with spaces between; those in which there is a space stand in quotation marks."""
+    return " ".join(repr(label) if label.split() != [label] else label for label in labels)
 
 
 def report_fault(error: Exception | str) -> None:
