@@ -107,10 +107,13 @@ void bind_connected_words(py::module_& m) {
           [](const hri::ModelFile& file, const std::shared_ptr<hri::SpeechEmbedding>& embedding) {
             return hri::ConnectedWordRecognizer::from_model_file(file, embedding);
           },
-          py::arg("file"), py::arg("embedding") = nullptr)
-      .def("to_model_file", &hri::ConnectedWordRecognizer::to_model_file)
-      .def("with_language", &hri::ConnectedWordRecognizer::with_language, py::arg("language"))
-      .def("with_grammar", &hri::ConnectedWordRecognizer::with_grammar, py::arg("grammar"))
+          py::arg("file"), py::arg("embedding") = nullptr, py::call_guard<py::gil_scoped_release>())
+      .def("to_model_file", &hri::ConnectedWordRecognizer::to_model_file,
+           py::call_guard<py::gil_scoped_release>())
+      .def("with_language", &hri::ConnectedWordRecognizer::with_language, py::arg("language"),
+           py::call_guard<py::gil_scoped_release>())
+      .def("with_grammar", &hri::ConnectedWordRecognizer::with_grammar, py::arg("grammar"),
+           py::call_guard<py::gil_scoped_release>())
       .def("with_decoder", &hri::ConnectedWordRecognizer::with_decoder, py::arg("decoder"))
       .def(
           "recognise",

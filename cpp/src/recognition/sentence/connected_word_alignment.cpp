@@ -29,7 +29,8 @@ int ConnectedWordRecognizer::model_of(const std::string& word) const {
   if (found != labels_.end() && *found == word) return static_cast<int>(found - labels_.begin());
   if (options_.unknown_words && word == TranscribedWord::kUnknown) return unknown_word();
   std::string message = "words: there is no word '" + word + "'; the words are";
-  for (const std::string& label : labels_) message += " " + label;
+  for (const std::string& label : labels_)
+    message += label.find(' ') == std::string::npos ? " " + label : " '" + label + "'";
   if (options_.unknown_words) message += std::string(" ") + TranscribedWord::kUnknown;
   fail(ErrorKind::invalid_argument, message);
 }
@@ -60,13 +61,12 @@ Transcript ConnectedWordRecognizer::align(const ScoredRecording& recording,
   transcript.log_score = decoded.log_score;
   transcript.words = words_of(decoded.words, recording);
   if (!decoded.complete || !confidences) return transcript;
-  const WordNetwork others = any_words();
-  if (!Lattice::fits(chains_, others, scores.rows())) {
+  if (!Lattice::fits(chains_, *any_words_, scores.rows())) {
     transcript.notes.emplace_back("too long for confidences");
     return transcript;
   }
   const Lattice lattice =
-      Lattice::decode(chains_, others, scores, options_.decoder, options_.lattice);
+      Lattice::decode(chains_, *any_words_, scores, options_.decoder, options_.lattice);
   add_confidences(lattice, decoded.words, &transcript);
   for (TranscribedWord& word : transcript.words)
     word.unknown = word.label == TranscribedWord::kUnknown;

@@ -55,6 +55,7 @@ ConnectedWordRecognizer::ConnectedWordRecognizer(const ConnectedWordRecognizerOp
                                                        options_.words.activity)),
       emissions_(std::make_shared<const GaussianEmissions>(std::move(models))) {
   require(labels_ == sorted_labels(labels_), "labels are not sorted");
+  check_labels(labels_);
   const std::size_t num_models = this->models().size();
   require(num_models == labels_.size() + 1, "models must be one a label, and one of silence");
   require(static_cast<std::size_t>(final_stays_.size()) == num_models,
@@ -92,21 +93,36 @@ ConnectedWordRecognizer::ConnectedWordRecognizer(const ConnectedWordRecognizerOp
     chains_.push_back(
         detail::unknown_chain(detail::mean_word_length(this->models(), final_stays_)));
   }
+  std::vector<int> words(labels_.size());
+  std::iota(words.begin(), words.end(), 0);
+  if (options_.unknown_words) words.push_back(unknown_word());
+  any_words_ = std::make_shared<const WordNetwork>(WordNetwork::loop(words, silence()));
+  sentences_ = any_words_;
+}
+
+void ConnectedWordRecognizer::check_labels(const std::vector<std::string>& labels) {
+  for (const char* reserved : {TranscribedWord::kUnknown, TranscribedWord::kSilence}) {
+    if (std::find(labels.begin(), labels.end(), reserved) == labels.end()) continue;
+    fail(ErrorKind::invalid_argument,
+         std::string("labels: '") + reserved + "' stands for no word of a vocabulary");
+  }
 }
 
 ConnectedWordRecognizer ConnectedWordRecognizer::with_language(NGramModel language) const {
   ConnectedWordRecognizer result = *this;
+  result.sentences_ =
+      std::make_shared<const WordNetwork>(WordNetwork::bigram(language, labels_, silence()));
   result.language_ = std::make_shared<const NGramModel>(std::move(language));
   result.grammar_ = nullptr;
-  (void)result.network(0);  // refuses what cannot be decoded with
   return result;
 }
 
 ConnectedWordRecognizer ConnectedWordRecognizer::with_grammar(Grammar grammar) const {
   ConnectedWordRecognizer result = *this;
+  result.sentences_ = std::make_shared<const WordNetwork>(grammar.network(
+      labels_, silence(), options_.unknown_words ? unknown_word() : WordNetwork::kNull));
   result.grammar_ = std::make_shared<const Grammar>(std::move(grammar));
   result.language_ = nullptr;
-  (void)result.network(0);
   return result;
 }
 
@@ -124,22 +140,11 @@ ConnectedWordRecognizer ConnectedWordRecognizer::with_embedding_weight(double we
   return result;
 }
 
-WordNetwork ConnectedWordRecognizer::network(int num_words) const {
+std::shared_ptr<const WordNetwork> ConnectedWordRecognizer::network(int num_words) const {
+  if (num_words == 0) return sentences_;
   const auto num_labels = static_cast<int>(labels_.size());
-  if (num_words != 0) return WordNetwork::sequence(num_labels, num_words, silence());
-  if (grammar_ != nullptr) {
-    return grammar_->network(labels_, silence(),
-                             options_.unknown_words ? unknown_word() : WordNetwork::kNull);
-  }
-  if (language_ != nullptr) return WordNetwork::bigram(*language_, labels_, silence());
-  return any_words();
-}
-
-WordNetwork ConnectedWordRecognizer::any_words() const {
-  std::vector<int> words(labels_.size());
-  std::iota(words.begin(), words.end(), 0);
-  if (options_.unknown_words) words.push_back(unknown_word());
-  return WordNetwork::loop(words, silence());
+  return std::make_shared<const WordNetwork>(
+      WordNetwork::sequence(num_labels, num_words, silence()));
 }
 
 double ScoredRecording::seconds_of(std::int64_t frame) const {
@@ -180,7 +185,7 @@ ScoredRecording ConnectedWordRecognizer::score_cepstra(Span<const float> audio, 
 std::vector<detail::RescoredSpan> ConnectedWordRecognizer::spans_of(
     const ScoredRecording& recording, Span<const float> recorded) const {
   const MatrixF& scores = recording.log_emissions;
-  ConnectedDecoder decoder(chains_, any_words(), options_.decoder);
+  ConnectedDecoder decoder(chains_, *any_words_, options_.decoder);
   for (Eigen::Index t = 0; t < scores.rows(); ++t) decoder.push(row_span(scores, t));
   std::vector<DecodedWord> words = decoder.finish().words;
   words.erase(std::remove_if(words.begin(), words.end(),
@@ -259,8 +264,8 @@ Transcript ConnectedWordRecognizer::recognise(const ScoredRecording& recording,
   transcript.notes = recording.notes;
   const MatrixF& scores = recording.log_emissions;
   if (scores.rows() == 0) return transcript;
-  const WordNetwork searched = network(query.num_words);
-  ConnectedDecoder decoder(chains_, searched, options_.decoder);
+  const auto searched = network(query.num_words);
+  ConnectedDecoder decoder(chains_, *searched, options_.decoder);
   for (Eigen::Index t = 0; t < scores.rows(); ++t) decoder.push(row_span(scores, t));
   const DecodedSentence decoded = decoder.finish();
   transcript.complete = decoded.complete;
@@ -268,7 +273,7 @@ Transcript ConnectedWordRecognizer::recognise(const ScoredRecording& recording,
   transcript.words = words_of(decoded.words, recording);
   if (!decoded.complete) return transcript;
   if (query.confidences || query.num_alternatives > 0)
-    weigh(recording, query, searched, decoded.words, &transcript);
+    weigh(recording, query, *searched, decoded.words, &transcript);
   // After the confidences, by which words are unknown.
   if (grammar_ != nullptr && query.num_words == 0) transcript.slots = slots_of(transcript.words);
   return transcript;
@@ -293,7 +298,7 @@ void ConnectedWordRecognizer::weigh(const ScoredRecording& recording,
 
 Transcript ConnectedWordRecognizer::recognise_begun(const ScoredRecording& recording,
                                                     std::size_t* num_decided) const {
-  ConnectedDecoder decoder(chains_, network(0), options_.decoder);
+  ConnectedDecoder decoder(chains_, *sentences_, options_.decoder);
   const MatrixF& scores = recording.log_emissions;
   for (Eigen::Index t = 0; t < scores.rows(); ++t) decoder.push(row_span(scores, t));
   std::vector<DecodedWord> words = decoder.take_decided();
@@ -321,7 +326,7 @@ Slots ConnectedWordRecognizer::slots_of(const std::vector<TranscribedWord>& word
 Lattice ConnectedWordRecognizer::lattice(const ScoredRecording& recording, int num_words) const {
   require(num_words >= 0 && num_words <= kMaxLength, "num_words must lie in 0..1000");
   if (recording.log_emissions.rows() == 0) return {{}, {}};
-  return Lattice::decode(chains_, network(num_words), recording.log_emissions, options_.decoder,
+  return Lattice::decode(chains_, *network(num_words), recording.log_emissions, options_.decoder,
                          options_.lattice);
 }
 

@@ -3,9 +3,11 @@
 #include "hri/recognition/sentence/connected_word_stream.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "hri/core/error.hpp"
+#include "hri/core/kernels.hpp"
 
 namespace hri {
 namespace {
@@ -38,6 +40,12 @@ ConnectedWordStream::ConnectedWordStream(ConnectedWordRecognizer recognizer, int
 }
 
 std::vector<ConnectedWordResult> ConnectedWordStream::process(Span<const float> samples) {
+  // Before any of them is taken: what ends within them would be lost.
+  const std::size_t bad = first_not_finite(samples.data(), samples.size());
+  if (bad < samples.size()) {
+    fail(ErrorKind::invalid_argument,
+         "audio is not finite at sample " + std::to_string(num_samples() + bad));
+  }
   std::vector<ConnectedWordResult> results;
   while (!samples.empty()) {
     // Not beyond the next search, so that blocks of any size give the same.

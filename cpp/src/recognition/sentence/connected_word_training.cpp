@@ -15,9 +15,11 @@
 #include "hri/signal/resample.hpp"
 #include "recognition/recording_folds.hpp"
 #include "recognition/sentence/held_out_choices.hpp"
+#include "recognition/sentence/naming.hpp"
 #include "recognition/sentence/sentence_training.hpp"
 #include "recognition/sentence/training_strings.hpp"
 #include "recognition/sentence/word_vectors.hpp"
+#include "recognition/word/word_augmentation.hpp"
 
 namespace hri {
 namespace {
@@ -106,7 +108,7 @@ class ConnectedWordTrainer {
   ConnectedWordRecognizer run(const std::vector<WordSample>& samples,
                               const std::vector<WordSample>& fillers,
                               const TrainingProgress& progress) {
-    read(samples);
+    read(samples, "samples");
     const int num_folds = options_.choose_penalty ? assign_folds() : 0;
     const int num_steps = num_folds + 1;
     if (progress) progress(0, num_steps);
@@ -141,15 +143,16 @@ class ConnectedWordTrainer {
     std::set<std::string> labels;
     for (const WordSample& sample : samples) labels.insert(sample.label);
     ConnectedWordTrainer trainer(options, {labels.begin(), labels.end()}, nullptr, should_stop);
-    trainer.read(samples);
+    trainer.read(samples, "fillers");
     FillerModels models = trainer.train_without(kOfNoFold).models;
     models.pop_back();  // that of silence
     return models;
   }
 
   // Words without speech are left out, but every label needs one.
-  void read(const std::vector<WordSample>& samples) {
-    words_ = spoken(samples, [this](const WordSample& s) { return label_index(labels_, s.label); });
+  void read(const std::vector<WordSample>& samples, const char* list) {
+    words_ = spoken(samples, list,
+                    [this](const WordSample& s) { return label_index(labels_, s.label); });
     for (std::size_t c = 0; c < labels_.size(); ++c) {
       if (!has_label(static_cast<int>(c), kOfNoFold))
         fail(ErrorKind::invalid_argument,
@@ -160,17 +163,18 @@ class ConnectedWordTrainer {
   // Words outside the vocabulary, all of one class behind those of the labels.
   [[nodiscard]] std::vector<SpokenWord> read_others(const std::vector<WordSample>& samples) const {
     std::vector<SpokenWord> words =
-        spoken(samples, [this](const WordSample&) { return silence(); });
+        spoken(samples, "fillers", [this](const WordSample&) { return silence(); });
     for (SpokenWord& word : words) word.fold = kOfAllFolds;
     return words;
   }
 
   template <class LabelOf>
   [[nodiscard]] std::vector<SpokenWord> spoken(const std::vector<WordSample>& samples,
-                                               const LabelOf& label_of) const {
+                                               const char* list, const LabelOf& label_of) const {
     std::vector<SpokenWord> words(samples.size());
     detail::parallel_for(samples.size(), should_stop_, [&](std::size_t i, const StopCheck&) {
-      read_one(samples[i], &words[i]);
+      detail::naming(detail::sample_name(samples[i], list, i),
+                     [&] { read_one(samples[i], &words[i]); });
       words[i].label = label_of(samples[i]);
     });
     words.erase(std::remove_if(words.begin(), words.end(),
@@ -429,6 +433,7 @@ ConnectedWordRecognizer ConnectedWordRecognizer::train(
     speakers.insert(sample.group);
     if (takes_lowest) rate_hz = std::min(rate_hz, sample.sample_rate_hz);
   }
+  check_labels(labels);
   if (used.words.num_mixtures == 0) {
     // Sharper models keep foreign words apart better.
     const int per_mixture = used.unknown_words ? 1 : kSpeakersPerMixture;

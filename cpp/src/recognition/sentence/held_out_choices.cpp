@@ -104,6 +104,8 @@ void HeldOutChoices::try_scales(const ConnectedWordRecognizer& trained,
     poll(stop);
     losses[i].fill(0);
     const ScoredRecording recording = trained.score(strings[i].audio, rate_hz);
+    if (!Lattice::fits(trained.chains(), *trained.network(0), recording.log_emissions.rows()))
+      return;
     const Lattice lattice = trained.lattice(recording);
     const std::vector<DecodedWord> words = lattice.best().words;
     for (std::size_t s = 0; s < kScales.size(); ++s) {

@@ -11,6 +11,7 @@
 
 #include "hri/core/error.hpp"
 #include "hri/features/speech/dynamics.hpp"
+#include "recognition/sentence/naming.hpp"
 
 namespace hri::detail {
 namespace {
@@ -96,20 +97,6 @@ double scale_of(const TwoHandFeatureOptions& options, ConstMatrixRefF tracks,
   const double usual = left ? reaches.left : reaches.right;
   const double own = reach_px(tracks, left ? kLeft : kRight, kReference);
   return usual > 0 && own > 0 ? own / usual : scale;
-}
-
-template <class Read>
-void naming(const std::string& name, Read&& read) {
-#if defined(__cpp_exceptions)
-  try {
-    std::forward<Read>(read)();
-  } catch (const InvalidArgument& error) {
-    fail(ErrorKind::invalid_argument, name + ": " + error.what());
-  }
-#else
-  (void)name;
-  std::forward<Read>(read)();
-#endif
 }
 
 bool knows(const SentenceFrames& frames, int column) {

@@ -9,6 +9,7 @@
 #include "hri/core/error.hpp"
 #include "hri/recognition/subword/subword_recognizer.hpp"
 #include "recognition/recording_folds.hpp"
+#include "recognition/sentence/naming.hpp"
 #include "recognition/sentence/sentence_front_end.hpp"
 #include "recognition/subword/bonus_choice.hpp"
 #include "recognition/subword/unit_training.hpp"
@@ -52,7 +53,8 @@ class UtteranceReader {
     if (static_cast<double>(sample.samples.size()) * 1000 <
         SentenceFrontEnd::kEdgeMs * sample.sample_rate_hz / 4)
       fail(ErrorKind::invalid_argument, name + ": audio is too short");
-    const detail::CutSentence word = plain.cut(sample.samples, sample.sample_rate_hz);
+    detail::CutSentence word;
+    detail::naming(name, [&] { word = plain.cut(sample.samples, sample.sample_rate_hz); });
     std::vector<UnitUtterance> copies;
     if (word.samples.empty()) return copies;
     for (const SentenceFrontEnd& front_end : front_ends_) {

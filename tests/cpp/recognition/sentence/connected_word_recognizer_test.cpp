@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "hri/core/error.hpp"
+#include "models/model_testing.hpp"
 #include "recognition/tone_words.hpp"
 
 namespace hri {
@@ -360,6 +363,31 @@ TEST(ConnectedWordRecognizer, RefusesWhatItCannotTrainOn) {
 }
 
 // A codeword more or less changes no word, and what is scored are possibilities.
+std::string refusal_of(const std::vector<WordSample>& samples) {
+  return testing_data::message_of<InvalidArgument>(
+      [&] { (void)ConnectedWordRecognizer::train(samples, small_options()); });
+}
+
+TEST(ConnectedWordRecognizer, NamesTheRecordingItCannotTrainOn) {
+  std::vector<WordSample> samples = clips().samples;
+  const std::vector<float> one_sample{0.1F};
+  samples[2].samples = one_sample;
+  EXPECT_EQ(refusal_of(samples).find("samples[2]: "), 0U);
+  samples[2].name = "anna.wav";
+  std::vector<float> not_finite(kRateHz, 0.1F);
+  not_finite[5] = std::numeric_limits<float>::quiet_NaN();
+  samples[2].samples = not_finite;
+  EXPECT_EQ(refusal_of(samples), "anna.wav: audio is not finite at sample 5");
+}
+
+TEST(ConnectedWordRecognizer, RefusesLabelsThatStandForNoWord) {
+  for (const char* label : {"<unk>", "<sil>"}) {
+    std::vector<WordSample> samples = clips().samples;
+    samples.front().label = label;
+    EXPECT_NE(refusal_of(samples).find(label), std::string::npos);
+  }
+}
+
 TEST(ConnectedWordRecognizer, DecodesByPossibilities) {
   ConnectedWordRecognizerOptions options = small_options();
   options.words.model = SequenceModelKind::ptbhmm;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "hri/core/error.hpp"
 #include "recognition/tone_words.hpp"
@@ -239,6 +240,22 @@ TEST(ConnectedWordStream, KeepsItsMemoryForTenMinutes) {
   EXPECT_EQ(num_final, (num_rounds + 9) / 10);
   EXPECT_LE(most_late, most_early);
   EXPECT_LT(most_late, 25U * kRateHz);
+}
+
+TEST(ConnectedWordStream, TakesNothingOfABlockThatItRefuses) {
+  std::vector<float> audio = two_utterances();
+  ConnectedWordStream untroubled(trained_by_digits(), kRateHz);
+  const std::vector<ConnectedWordResult> expected = results_of(&untroubled, audio, audio.size());
+  ConnectedWordStream stream(trained_by_digits(), kRateHz);
+  std::vector<float> damaged = audio;
+  damaged.back() = std::numeric_limits<float>::infinity();
+  EXPECT_THROW(stream.process(damaged), InvalidArgument);
+  const std::vector<ConnectedWordResult> results = results_of(&stream, audio, audio.size());
+  ASSERT_EQ(results.size(), expected.size());
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    EXPECT_EQ(results[i].last_s, expected[i].last_s);
+    EXPECT_EQ(labels_in(results[i].transcript), labels_in(expected[i].transcript));
+  }
 }
 
 TEST(ConnectedWordStream, RefusesSamplesAndOptions) {

@@ -91,6 +91,7 @@ struct HRI_API ConnectedWordRecognizerOptions {
 
 struct TranscribedWord {
   static constexpr const char* kUnknown = "<unk>";
+  static constexpr const char* kSilence = "<sil>";  ///< in lattices; it is in no transcript
 
   std::string label;     ///< kUnknown: no word of the vocabulary fits
   double first_s = 0;    ///< from the beginning of the recording; where its sound begins
@@ -267,6 +268,9 @@ class HRI_API ConnectedWordRecognizer {
  private:
   friend class detail::HeldOutChoices;
 
+  // Throws InvalidArgument for labels that transcripts and lattices have a meaning of their own
+  // for.
+  static void check_labels(const std::vector<std::string>& labels);
   static ConnectedWordRecognizer read(const ModelFile& file,
                                       const std::shared_ptr<const SpeechEmbedding>& embedding);
   /// score_begun() without the unknown word; `fillers` gets the scores of the states of filler
@@ -278,9 +282,7 @@ class HRI_API ConnectedWordRecognizer {
   /// What the words of a first search may have been, by the embedding.
   [[nodiscard]] std::vector<detail::RescoredSpan> spans_of(const ScoredRecording& recording,
                                                            Span<const float> recorded) const;
-  [[nodiscard]] WordNetwork network(int num_words) const;
-  // Any number of words in any order.
-  [[nodiscard]] WordNetwork any_words() const;
+  [[nodiscard]] std::shared_ptr<const WordNetwork> network(int num_words) const;
   // Its number among chains(). Throws InvalidArgument for a word that there is not.
   [[nodiscard]] int model_of(const std::string& word) const;
   [[nodiscard]] std::vector<TranscribedWord> words_of(const std::vector<DecodedWord>& decoded,
@@ -305,6 +307,8 @@ class HRI_API ConnectedWordRecognizer {
   std::shared_ptr<const GaussianEmissions> fillers_;                // nullptr: there are none
   std::shared_ptr<const CodedPossibilities> filler_possibilities_;  // of the kind ptbhmm
   std::vector<WordChain> chains_;
+  std::shared_ptr<const WordNetwork> any_words_;  // any number of them in any order
+  std::shared_ptr<const WordNetwork> sentences_;  // as language model or grammar allow them
   std::shared_ptr<const NGramModel> language_;
   std::shared_ptr<const Grammar> grammar_;
 };
