@@ -309,8 +309,7 @@ def test_no_study_takes_the_hindi_sets_for_each_others_people(data_dir: Path) ->
 
 def test_bounds_of_commands_are_chosen_without_who_is_tested(data_dir: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each person of the part left out has the bound of decisions by people, and on people, of the other parts."""
-    (data_dir / "robot").mkdir()
-    (data_dir / "robot" / "commands").symlink_to(data_dir / "fsdd" / "recordings")
+    corpus = robot_commands.Corpus(("fsdd/recordings",), "#JSGF V1.0;\ngrammar g;\npublic <g> = 1 | 2;\n", num_parts=3)
     people = ("high", "low", "middle")
     seen: list[tuple[set[str], str, bool]] = []
 
@@ -323,7 +322,7 @@ def test_bounds_of_commands_are_chosen_without_who_is_tested(data_dir: Path, mon
 
     monkeypatch.setattr(robot_commands._Study, "trained", lambda self, met, progress: met)
     monkeypatch.setattr(robot_commands._Study, "heard", heard)
-    found = run("robot-commands", data_dir / "robot")
+    found = robot_commands._run(data_dir, lambda *_: None, corpus=corpus, front_end="cepstra")
     assert all(person not in met for met, person, _ in seen)
     inner = sorted((*met, person) for met, person, is_inner in seen if is_inner)
     assert inner == sorted((one, other) for one in people for other in people if one != other)

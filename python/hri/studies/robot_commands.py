@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import permutations
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -25,8 +25,6 @@ from hri.studies.registry import WORD_SOURCES, Layout, Progress, Study, within
 from hri.studies.tables import Row, statistics
 from hri.studies.word_features import first_takes
 
-FOLDER = "commands"
-NUM_FOLDS = 3
 PAUSE_MS = 200
 NOISE_DB = 20
 SEED = 0
@@ -34,15 +32,36 @@ QUIET, NOISY, OTHER_WORDS = CONDITIONS = "quiet", f"white noise at {NOISE_DB} dB
 TARGET = 0.9
 BOUNDS = (0.999, 0.998, 0.995, 0.99, 0.98, 0.95, 0.9, 0.8, 0.5, 0.0)
 KEPT = 0.95
+
+
+@dataclass(frozen=True)
+class Corpus:
+    """Recordings of words, of which the grammar's are in commands."""
+
+    folders: tuple[str, ...]
+    grammar: str
+    num_parts: int
+    """Of the people, of which each is held out in turn."""
+
+
 _NUMBERS = ("one", "two", "three", "four", "five")
 _STEPS = " | ".join(f"{word} {{steps={number}}}" for number, word in enumerate(_NUMBERS, start=1))
-GRAMMAR = f"""#JSGF V1.0;
+_ARABIC = f"""#JSGF V1.0;
 grammar commands;
 public <command> = ( forward {{walk=forward}} | backward {{walk=backward}} ) [ {_STEPS} ]
                  | ( left {{side=left}} | right {{side=right}} ) up {{gesture=up}} [ <times> ]
                  | stop;
 <times> = two {{times=2}} | three {{times=3}};
 """
+_TITLES = {"kahani": "story", "khel": "game", "kitaab": "book"}
+_HINDI = f"""#JSGF V1.0;
+grammar titles;
+public <command> = ( {" | ".join(f"{word} {{kind={kind}}}" for word, kind in _TITLES.items())} )
+                   ( {" | ".join(f"{number} {{number={number}}}" for number in range(1, 11))} );
+"""
+ARABIC = Corpus(("commands",), _ARABIC, num_parts=3)
+HINDI = Corpus(("hindi_words/words", "hindi_words/digits"), _HINDI, num_parts=4)
+"""Who is called speaker2 among the words need not be the speaker2 of the digits, and may be another of them."""
 
 
 def _sentences(clips: Sequence[Clip], commands: Sequence[str], rng: np.random.Generator) -> list[DigitString]:
@@ -98,9 +117,9 @@ def _rows(heard: Sequence[Heard], chosen: Mapping[str, float]) -> list[Row]:
 class _Study:
     """Recordings, and recognisers of commands trained on some of the people."""
 
-    def __init__(self, clips: Sequence[Clip], front_end: FrontEndKind) -> None:
+    def __init__(self, clips: Sequence[Clip], grammar: str, front_end: FrontEndKind) -> None:
         self.front_end = front_end
-        self.grammar = Grammar.parse(GRAMMAR, "commands.jsgf")
+        self.grammar = Grammar.parse(grammar, "commands.jsgf")
         self.clips = clips
         self.people = sorted({person for _, person, _ in clips})
 
@@ -137,24 +156,33 @@ class _Study:
         return found
 
 
-def _run(data_dir: Path, progress: Progress, *, front_end: FrontEndKind, takes: int | None = None) -> dict[str, Any]:
-    dataset = first_takes(Dataset.load(data_dir / FOLDER, "speech"), takes)
-    study = _Study([(s.label, s.person, read_audio(s.path)) for s in dataset.samples], front_end)
-    parts = [set(study.people[fold::NUM_FOLDS]) for fold in range(NUM_FOLDS)]
+def _run(
+    data_dir: Path, progress: Progress, *, corpus: Corpus, front_end: FrontEndKind, takes: int | None = None
+) -> dict[str, Any]:
+    samples = [
+        sample
+        for folder in corpus.folders
+        for sample in first_takes(Dataset.load(data_dir / folder, "speech"), takes).samples
+    ]
+    study = _Study([(s.label, s.person, read_audio(s.path)) for s in samples], corpus.grammar, front_end)
+    people = set(study.people)
+    parts = [set(study.people[part :: corpus.num_parts]) for part in range(corpus.num_parts)]
     heard: list[Heard] = []
-    inner: list[list[Heard]] = [[] for _ in parts]
-    for fold, part in enumerate(parts):
-        say = within(progress, f"part {fold + 1}")
-        commands = study.trained(set(study.people) - part, say)
+    for number, part in enumerate(parts, start=1):
+        say = within(progress, f"part {number}")
+        commands = study.trained(people - part, say)
         for done, person in enumerate(sorted(part)):
             heard += study.heard(commands, person)
             say("testing", done + 1, len(part))
-        # The bound of a part is chosen on the two others, each scored by a recogniser that has met only the other one.
-        alone = study.trained(part, say)
-        for held_out, scored in permutations(set(range(NUM_FOLDS)) - {fold}):
+    # The bound of a part is chosen on the others, each scored by a recogniser that has met neither.
+    inner: list[list[Heard]] = [[] for _ in parts]
+    for pair in combinations(range(len(parts)), 2):
+        say = within(progress, "parts " + " and ".join(str(part + 1) for part in pair))
+        others = study.trained(people - parts[pair[0]] - parts[pair[1]], say)
+        for held_out, scored in (pair, pair[::-1]):
             for person in sorted(parts[scored]):
-                inner[held_out] += study.heard(alone, person, [QUIET])
-            say("choosing", held_out + 1, NUM_FOLDS)
+                inner[held_out] += study.heard(others, person, [QUIET])
+            say("choosing", held_out + 1, len(parts))
     bounds = [_chosen(ones) for ones in inner]
     chosen = {person: bound for part, bound in zip(parts, bounds, strict=True) for person in part}
     rows = _rows(heard, chosen)
@@ -170,15 +198,25 @@ def _run(data_dir: Path, progress: Progress, *, front_end: FrontEndKind, takes: 
     }
 
 
-def _study(name: str, front_end: FrontEndKind, by: str = "") -> Study:
+_ARABIC_TEXT = (
+    "19 commands with slots, such as forward three or right up two, joined from Arabic words of 24 people with "
+    "pauses of 200 ms, a third of the people"
+)
+_HINDI_TEXT = (
+    "30 commands with slots, such as kahani 3 (story three), joined from Hindi words and digits of four speakers with "
+    "pauses of 200 ms, one speaker"
+)
+
+
+def _study(name: str, corpus: Corpus, text: str, front_end: FrontEndKind) -> Study:
+    by = "" if front_end == "cepstra" else "; by cepstra and a pretrained speech embedding (extra embedding)"
     return Study(
         name,
-        "19 commands with slots, such as forward three or right up two, joined from Arabic words of 24 people with "
-        "pauses of 200 ms, a third of the people held out in turn: whether all slots are right; and how many of their "
-        f"other words, said by themselves, are accepted as a command{by}",
-        (FOLDER,),
+        f"{text} held out in turn: whether all slots are right; and how many of their other words, said by themselves, "
+        f"are accepted as a command{by}",
+        corpus.folders,
         "all slots right in 90 % of the commands in quiet, by the default min_confidence",
-        partial(_run, front_end=front_end),
+        partial(_run, corpus=corpus, front_end=front_end),
         Layout(columns="condition", measure="accuracy"),
         thins=True,
         sources=(
@@ -190,6 +228,8 @@ def _study(name: str, front_end: FrontEndKind, by: str = "") -> Study:
 
 
 STUDIES = (
-    _study("robot-commands", "cepstra"),
-    _study("robot-commands-both", "both", "; by cepstra and a pretrained speech embedding (extra embedding)"),
+    _study("robot-commands", ARABIC, _ARABIC_TEXT, "cepstra"),
+    _study("robot-commands-both", ARABIC, _ARABIC_TEXT, "both"),
+    _study("hindi-commands", HINDI, _HINDI_TEXT, "cepstra"),
+    _study("hindi-commands-both", HINDI, _HINDI_TEXT, "both"),
 )
