@@ -156,7 +156,13 @@ void bind_features(py::module_& m) {
       .def_property_readonly("sample_period", &FeatureExtractor::sample_period,
                              "From frame to frame, in 100 ns.");
   py::class_<Configuration>(m, "HtkConfiguration", "What HTK's configuration files set.")
-      .def(py::init<>())
+      .def(py::init([](bool live) {
+             Configuration made;
+             made.live = live;
+             return made;
+           }),
+           py::arg("live") = false,
+           "With `live` that of live sound, whose settings are refused or set nothing else.")
       .def(
           "read", [](Configuration& self, const Path& path) { self.read(path.text); },
           py::arg("path"), "Sets what a file sets; raises FormatError naming file and line.")
@@ -179,6 +185,13 @@ void bind_features(py::module_& m) {
       .def_readonly("has_codewords", &Configuration::has_codewords, "Whether TARGETKIND has _V.")
       .def_readonly("save_codewords", &Configuration::save_codewords, "SAVEASVQ.")
       .def_readonly("vq_table", &Configuration::vq_table, "VQTABLE; empty: not set.")
+      .def_readonly("live", &Configuration::live, "Whether it is of live sound.")
+      .def_readonly("source_rate_hz", &Configuration::source_rate_hz,
+                    "SOURCERATE of live sound, as a rate; 0: not set.")
+      .def_readonly("silence_frames", &Configuration::silence_frames,
+                    "SILSEQCOUNT of live sound: frames that end an utterance; 0: not set.")
+      .def_readonly("record_prefix", &Configuration::record_prefix, "RECOUTPREFIX of live sound.")
+      .def_readonly("record_suffix", &Configuration::record_suffix, "RECOUTSUFFIX of live sound.")
       .def_readonly("features", &Configuration::features, "As HtkFeatureOptions.")
       .def_readonly("settings", &Configuration::settings,
                     "Pairs of a key and a value, as they came.")

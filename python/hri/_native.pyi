@@ -8372,7 +8372,10 @@ class HtkConfiguration:
     """
     What HTK's configuration files set.
     """
-    def __init__(self) -> None: ...
+    def __init__(self, live: bool = False) -> None:
+        """
+        With `live` that of live sound, whose settings are refused or set nothing else.
+        """
     def parse(self, text: str, name: str) -> None:
         """
         The same of a text; `name` is what errors call it.
@@ -8406,6 +8409,21 @@ class HtkConfiguration:
         Keys that set nothing here.
         """
     @property
+    def live(self) -> bool:
+        """
+        Whether it is of live sound.
+        """
+    @property
+    def record_prefix(self) -> str:
+        """
+        RECOUTPREFIX of live sound.
+        """
+    @property
+    def record_suffix(self) -> str:
+        """
+        RECOUTSUFFIX of live sound.
+        """
+    @property
     def save_codewords(self) -> bool:
         """
         SAVEASVQ.
@@ -8416,9 +8434,19 @@ class HtkConfiguration:
         Pairs of a key and a value, as they came.
         """
     @property
+    def silence_frames(self) -> int:
+        """
+        SILSEQCOUNT of live sound: frames that end an utterance; 0: not set.
+        """
+    @property
     def source_format(self) -> str:
         """
         SOURCEFORMAT: HTK or WAV.
+        """
+    @property
+    def source_rate_hz(self) -> int:
+        """
+        SOURCERATE of live sound, as a rate; 0: not set.
         """
     @property
     def target(self) -> str:

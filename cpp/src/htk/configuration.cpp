@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hri/htk/configuration.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <utility>
@@ -13,6 +15,9 @@ namespace hri::htk {
 namespace {
 
 constexpr double kUnitsPerMs = 1e4;  // HTK's times are in 100 ns
+constexpr double kUnitsPerS = 1e7;
+constexpr double kLeastRateHz = 1000;  // as of the end pointer
+constexpr double kLargestRateHz = 384000;
 
 std::string upper(std::string text) {
   for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
@@ -133,7 +138,6 @@ class ConfigurationReader {
     };
     setters_["SOURCEFORMAT"] = [this](const std::string& value) { set_format(value); };
     add_word("TARGETFORMAT", {"HTK"});
-    add_word("SOURCEKIND", {"WAVEFORM", "ANON"});
     add_number("WINDOWSIZE", &f.frame_length_ms, kUnitsPerMs);
     add_flag("USEHAMMING", &f.hamming);
     add_number("PREEMCOEF", &f.pre_emphasis);
@@ -162,30 +166,72 @@ class ConfigurationReader {
     for (const char* key : {"SIMPLEDIFFS", "V1COMPAT", "ADDDITHER", "DOUBLEFFT"}) add_fixed(key, 0);
     for (const char* key : {"CEPSCALE", "MELFLOOR"}) add_fixed(key, 1);
     add_refusals();
+    if (out_->live) {
+      add_settings_of_live_sound();
+    } else {
+      add_refusals_of_live_sound();
+    }
+  }
+
+  // MEASURESIL and the thresholds of HTK's detector set nothing: the end pointer has its own.
+  void add_settings_of_live_sound() {
+    add_word("SOURCEKIND", {"HAUDIO", "WAVEFORM", "ANON"});
+    setters_["USESILDET"] = [this](const std::string& value) {
+      if (!flag(value)) lines_.refuse("USESILDET = " + value + ": live sound is cut at silence");
+    };
+    setters_["SOURCERATE"] = [this](const std::string& value) {
+      const double rate_hz = kUnitsPerS / std::max(lines_.number_of(value), 1e-30);
+      if (!(rate_hz >= kLeastRateHz && rate_hz <= kLargestRateHz))
+        lines_.refuse("SOURCERATE = " + value +
+                      " is no sample period in 100 ns: 625 is that of 16000 Hz");
+      out_->source_rate_hz = static_cast<int>(std::lround(rate_hz));
+    };
+    add_whole("SILSEQCOUNT", &out_->silence_frames);
+    setters_["RECOUTPREFIX"] = [this](const std::string& value) { out_->record_prefix = value; };
+    setters_["RECOUTSUFFIX"] = [this](const std::string& value) { out_->record_suffix = value; };
+  }
+
+  void add_refusals_of_live_sound() {
+    setters_["SOURCEKIND"] = [this](const std::string& value) {
+      const std::string kind = upper(value);
+      if (kind == "HAUDIO") refuse_live_sound("SOURCEKIND", value);
+      if (kind != "WAVEFORM" && kind != "ANON")
+        lines_.refuse("SOURCEKIND = " + value + " is not supported");
+    };
+    for (const char* key : {"USESILDET", "MEASURESIL"}) {
+      setters_[key] = [this, key](const std::string& value) {
+        if (flag(value)) refuse_live_sound(key, value);
+      };
+    }
+    for (const char* key : {"RECOUTPREFIX", "RECOUTSUFFIX"})
+      setters_[key] = [this, key](const std::string& value) { refuse_live_sound(key, value); };
+  }
+
+  void refuse_live_sound(const std::string& key, const std::string& value) const {
+    lines_.refuse(key + " = " + value + " is of live sound, and files are read here");
   }
 
   // What would change parameters, labels or results, and is not carried out: refused, unless it
   // says what is done anyhow.
   void add_refusals() {
     for (const char* key :
-         {"NATURALREADORDER", "NATURALWRITEORDER", "USESILDET",      "MEASURESIL",   "ADAPTCMN",
-          "NONUMESCAPES",     "RAWMITFORMAT",      "FORCEOUT",       "FORCECXTEXP",  "FORCELEFTBI",
-          "FORCERIGHTBI",     "ALLOWXWRDEXP",      "CFWORDBOUNDARY", "USEHMMSETLOG", "SAVEBINARY",
-          "SAVELATBIN",       "STRIPTRIPHONES",    "STRIPCONTEXT",   "IGNORECASE",   "NISTSCORE",
-          "TRANSALT",         "USEINXFORM"})
+         {"NATURALREADORDER", "NATURALWRITEORDER", "ADAPTCMN",    "NONUMESCAPES", "RAWMITFORMAT",
+          "FORCEOUT",         "FORCECXTEXP",       "FORCELEFTBI", "FORCERIGHTBI", "ALLOWXWRDEXP",
+          "CFWORDBOUNDARY",   "USEHMMSETLOG",      "SAVEBINARY",  "SAVELATBIN",   "STRIPTRIPHONES",
+          "STRIPCONTEXT",     "IGNORECASE",        "NISTSCORE",   "TRANSALT",     "USEINXFORM"})
       add_fixed(key, 0);
     add_word("BYTEORDER", {"NONVAX"});
     add_fixed("NSTREAMS", 1);
     for (const char* key : {"LABELFORMAT", "SOURCELABEL", "TARGETLABEL"}) add_word(key, {"HTK"});
     for (const char* key : {"TRANSLEVEL", "REFLEVEL", "TESTLEVEL"}) add_fixed(key, 0);
     for (const char* key :
-         {"CMEANDIR",         "CMEANMASK",    "CMEANPATHMASK", "VARSCALEDIR",  "VARSCALEMASK",
-          "VARSCALEPATHMASK", "VARSCALEFN",   "MATTRANFN",     "MATTRAN",      "SIDEXFORMMASK",
-          "SIDEXFORMEXT",     "STEREOMODE",   "LABFILEMASK",   "LABOFILEMASK", "LATFILEMASK",
-          "LATOFILEMASK",     "RECOUTPREFIX", "RECOUTSUFFIX",  "HPARMFILTER",  "HWAVEFILTER",
-          "HLABELFILTER",     "HMMDEFFILTER", "HMMLISTFILTER", "HNETFILTER",   "HDICTFILTER",
-          "LANGMODFILTER",    "PRONSCALE",    "INPUTXFORM",    "PAXFORMMASK",  "INXFORMMASK",
-          "SPEAKERMASK",      "PHRASELABEL",  "PHONELABEL"})
+         {"CMEANDIR",         "CMEANMASK",   "CMEANPATHMASK", "VARSCALEDIR",   "VARSCALEMASK",
+          "VARSCALEPATHMASK", "VARSCALEFN",  "MATTRANFN",     "MATTRAN",       "SIDEXFORMMASK",
+          "SIDEXFORMEXT",     "STEREOMODE",  "LABFILEMASK",   "LABOFILEMASK",  "LATFILEMASK",
+          "LATOFILEMASK",     "HPARMFILTER", "HWAVEFILTER",   "HLABELFILTER",  "HMMDEFFILTER",
+          "HMMLISTFILTER",    "HNETFILTER",  "HDICTFILTER",   "LANGMODFILTER", "PRONSCALE",
+          "INPUTXFORM",       "PAXFORMMASK", "INXFORMMASK",   "SPEAKERMASK",   "PHRASELABEL",
+          "PHONELABEL"})
       setters_[key] = [this, key](const std::string& value) {
         lines_.refuse(std::string(key) + " = " + value + " is not supported");
       };

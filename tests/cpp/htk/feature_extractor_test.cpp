@@ -324,6 +324,35 @@ TEST(Configuration, RefusesWhatWouldChangeValues) {
             "nothing thrown");
 }
 
+TEST(Configuration, HasSettingsOfLiveSoundWhereItIsAskedFor) {
+  const std::string settings =
+      "SOURCERATE = 625.0\nSOURCEKIND = HAUDIO\nUSESILDET = T\nMEASURESIL = T\n"
+      "SPEECHTHRESH = 9\nSILSEQCOUNT = 70\nHVITE: RECOUTPREFIX = 'out/s'\nRECOUTSUFFIX = x\n";
+  Configuration c;
+  c.live = true;
+  c.parse(settings, "config");
+  EXPECT_EQ(c.source_rate_hz, 16000);
+  EXPECT_EQ(c.silence_frames, 70);
+  EXPECT_EQ(c.record_prefix, "out/s");
+  EXPECT_EQ(c.record_suffix, "x");
+  EXPECT_EQ(c.ignored, (std::vector<std::string>{"MEASURESIL", "SPEECHTHRESH"}));
+  c.parse("SOURCERATE = 907.03\n", "config");
+  EXPECT_EQ(c.source_rate_hz, 11025);
+  for (const char* setting : {"USESILDET = F", "SOURCERATE = 0", "SOURCERATE = -625",
+                              "SOURCERATE = 16000", "SOURCERATE = 1e-30", "SOURCEKIND = MFCC"})
+    EXPECT_THROW(c.parse(setting, "config"), FormatError) << setting;
+}
+
+TEST(Configuration, RefusesSettingsOfLiveSoundForFiles) {
+  EXPECT_EQ(refusal_of_options("\nSOURCEKIND = HAUDIO\n"),
+            "config: line 2: SOURCEKIND = HAUDIO is of live sound, and files are read here");
+  for (const char* setting :
+       {"USESILDET = T", "MEASURESIL = T", "RECOUTPREFIX = s", "RECOUTSUFFIX = s"})
+    EXPECT_NE(refusal_of_options(setting).find("is of live sound"), std::string::npos) << setting;
+  EXPECT_EQ(refusal_of_options("USESILDET = F\nMEASURESIL = F\nSOURCEKIND = WAVEFORM\n"),
+            "nothing thrown");
+}
+
 TEST(Configuration, KeepsSettingsAsTheyCame) {
   Configuration c;
   c.parse("HPARM: numchans = 26  # filters\n", "config");

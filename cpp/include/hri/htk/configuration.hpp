@@ -31,6 +31,13 @@ struct HRI_API Configuration {
   bool has_codewords = false;
   bool save_codewords = false;  ///< SAVEASVQ
   std::string vq_table;         ///< VQTABLE, a path
+  /// Of live sound, direct audio input, whose settings follow; without it they set nothing, or are
+  /// refused where they would change results. Set it before anything is read.
+  bool live = false;
+  int source_rate_hz = 0;     ///< SOURCERATE, of the recordings of the models; 0: not set
+  int silence_frames = 0;     ///< SILSEQCOUNT, that end an utterance; 0: not set
+  std::string record_prefix;  ///< RECOUTPREFIX, of the names of utterances
+  std::string record_suffix;  ///< RECOUTSUFFIX
   HtkFeatureOptions features;
   std::vector<std::string> ignored;  ///< keys that are read by other tools only, or by none
   std::vector<std::pair<std::string, std::string>> settings;  ///< keys and values, as they came
