@@ -31,6 +31,7 @@ from hri.htk.coding import (
     code_file,
     code_sources,
     load_observations,
+    observe_samples,
     observed,
     read_header,
 )
@@ -89,6 +90,7 @@ __all__ = [
     "load_observations",
     "network_statistics",
     "observation_names",
+    "observe_samples",
     "observed",
     "random_sentence",
     "read_header",

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from os import PathLike, fspath
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from hri._native import HtkConfiguration, HtkFeatureExtractor, HtkParameterFile, HtkVqTable
 from hri.core.errors import FormatError, InvalidArgument
@@ -295,6 +295,38 @@ def load_observations(
         frames = observed(file, kind, configuration, name)
     # A copy: the frames around the part are not kept with it.
     return frames[first - begin : end - begin].copy(), file.sample_period
+
+
+def observe_samples(
+    samples: ArrayLike, sample_rate_hz: int, kind: str, configuration: HtkConfiguration, name: str = "samples"
+) -> tuple[NDArray[np.float32], int]:
+    """Frames of sound as models of this kind see them, as of a file with these samples, and their period in 100 ns.
+
+    Energy is normalised, and `_Z` takes the mean, over all these samples.
+
+    Parameters
+    ----------
+    samples : array_like, shape (num_samples,)
+        Mono, -1 to 1.
+    sample_rate_hz : int
+        Of the samples; they are not resampled.
+    kind : str
+        Of the models.
+    configuration : Configuration
+    name : str
+        What errors call the samples.
+
+    Raises
+    ------
+    FormatError
+        Where TARGETRATE is not set, and where frames have to become codewords and no table, or one of other frames, is
+        named.
+    InvalidArgument
+        For samples shorter than a frame, a TARGETKIND that sound cannot become, and a kind that the frames cannot
+        become.
+    """
+    file = _code_audio(np.asarray(samples, np.float32), sample_rate_hz, name, configuration)
+    return observed(file, kind, configuration, name), file.sample_period
 
 
 def _end_of_part(first: int, last: int | None, num_frames: int, name: str) -> int:

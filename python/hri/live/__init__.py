@@ -17,6 +17,7 @@ from hri.live.recorder import WordRecorder
 from hri.live.ring import SampleRing
 from hri.live.sign_watcher import SignWatcher
 from hri.live.sources import ArraySource, AudioSource, FileSource, Stalled
+from hri.live.utterances import UtteranceFinder
 from hri.live.visibility import MISSING_TEXTS, Visibility, missing_text
 from hri.live.watch_picture import draw_result
 from hri.live.watcher import Watcher
@@ -43,6 +44,7 @@ __all__ = [
     "SampleRing",
     "SignWatcher",
     "Stalled",
+    "UtteranceFinder",
     "VideoSource",
     "Visibility",
     "Watcher",

@@ -32,7 +32,7 @@ class UtteranceFinder:
 
     Parameters
     ----------
-    options : EndpointerOptions
+    options : EndpointerOptions, optional
         When an utterance begins, pauses and ends. A pause gives an event "pause" with the samples so far.
     level_interval_s : float
         Interval between level events.
@@ -41,15 +41,21 @@ class UtteranceFinder:
     """
 
     def __init__(
-        self, options: EndpointerOptions, level_interval_s: float, pauses: EndpointerOptions | None = None
+        self,
+        options: EndpointerOptions | None = None,
+        level_interval_s: float = 0.1,
+        pauses: EndpointerOptions | None = None,
     ) -> None:
         require_positive("level_interval_s", level_interval_s)
-        self._options = options
+        self._options = options or EndpointerOptions()
         self._pauses = pauses
         self._level_interval_s = level_interval_s
 
     def process(self, source: AudioSource, **metadata: Any) -> Generator[StreamResult, None, None]:
         """Events until the source ends; it is closed then, and also when the caller stops early.
+
+        With an event "speech_end" come the samples of the utterance and the noise around it. They end at the time of
+        the event, when it was known that the utterance has ended; all other events but pauses come with None.
 
         Parameters
         ----------
