@@ -28,9 +28,10 @@ stall_option = click.option(
 camera_option = click.option("--device", default="0", show_default=True, help="Number or address of the camera.")
 
 
-def microphone(device: str | None, stall_s: float) -> MicrophoneSource:
-    """The microphone of that number or name, the default one for None."""
-    return MicrophoneSource(int(device) if device is not None and device.isdigit() else device, stall_s=stall_s)
+def microphone(device: str | None, stall_s: float, buffer_s: float = 5.0) -> MicrophoneSource:
+    """The microphone of that number or name, the default one for None; errors as of `MicrophoneSource`."""
+    chosen = int(device) if device is not None and device.isdigit() else device
+    return MicrophoneSource(chosen, stall_s=stall_s, buffer_s=buffer_s)
 
 
 def camera(device: str, stall_s: float) -> CameraSource:
@@ -46,13 +47,15 @@ def recording(path: str | PathLike[str], paced: bool = False) -> FileSource:
     return source
 
 
-def report(events: Iterable[Event], as_json: bool, describe: Callable[[Event], str]) -> None:
+def report(events: Iterable[Event], as_json: bool, describe: Callable[[Event], str], plain: bool = False) -> None:
     """Every event as a line of JSON; on a terminal, unless --json-lines is given, the level and what `describe` makes
-    of the others."""
+    of the others, which with `plain` is written in place of JSON where there is no terminal, too."""
     if as_json or not sys.stdout.isatty():
         for event in events:
-            click.echo(event.to_json())
-            sys.stdout.flush()
+            line = describe(event) if plain and not as_json else event.to_json()
+            if line:
+                click.echo(line)
+                sys.stdout.flush()
         return
     from rich.live import Live
     from rich.text import Text

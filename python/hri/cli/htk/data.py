@@ -99,12 +99,12 @@ def _check_header(path: str, models: ModelSet, configuration: Configuration) -> 
     if kind.startswith("WAVEFORM") or configuration.source_format == "WAV":
         if not Path(path).is_file():
             raise FormatError(f"{path}: there is no such file")
-        _check_kind(path, configuration.target, None, models, configuration)
+        check_kind(path, configuration.target, None, models, configuration)
         if not configuration.has_target_rate:
             raise FormatError(f"{path}: TARGETRATE is not set in any configuration file")
         return target
     header = read_header(path)
-    _check_kind(path, header.kind, header.num_columns, models, configuration)
+    check_kind(path, header.kind, header.num_columns, models, configuration)
     if configuration.has_target_rate and header.sample_period != target:
         raise FormatError(
             f"{path}: a frame each {header.sample_period} * 100 ns, where TARGETRATE says {target} * 100 ns"
@@ -112,8 +112,19 @@ def _check_header(path: str, models: ModelSet, configuration: Configuration) -> 
     return header.sample_period
 
 
-def _check_kind(path: str, kind: str, columns: int | None, models: ModelSet, configuration: Configuration) -> None:
-    """Whether frames of this kind can become what models take; of as many columns, if they are known."""
+def check_kind(path: str, kind: str, columns: int | None, models: ModelSet, configuration: Configuration) -> None:
+    """Raises FormatError unless frames of this kind can become what models take.
+
+    Parameters
+    ----------
+    path : str
+        Of the file, or what else messages begin with.
+    kind : str
+    columns : int or None
+        None: not known.
+    models : ModelSet
+    configuration : Configuration
+    """
     wanted = models.kind
     if columns is None:
         is_quantised = configuration.has_codewords and wanted == DISCRETE
@@ -144,12 +155,17 @@ def load_frames(file: DataFile, models: ModelSet, configuration: Configuration) 
         frames, _ = load_observations(file.path, models.kind, configuration, file.first or 0, file.last)
     except InvalidArgument as error:
         raise FormatError(f"{file.path}: {error}") from error
-    if models.num_codewords:
-        outside = np.flatnonzero((frames[:, 0] < 1) | (frames[:, 0] > models.num_codewords))
-        if outside.size:
-            number = (file.first or 0) + outside[0]
-            raise FormatError(
-                f"{file.path}: frame {number} has the codeword {frames[outside[0], 0]:g}, and the models have 1 to "
-                f"{models.num_codewords}"
-            )
+    require_codewords(frames, models, file.path, file.first or 0)
     return frames
+
+
+def require_codewords(frames: NDArray[np.float32], models: ModelSet, path: str, first: int = 0) -> None:
+    """Raises FormatError for a codeword that discrete models have not: names file and frame, counted from `first`."""
+    if not models.num_codewords:
+        return
+    outside = np.flatnonzero((frames[:, 0] < 1) | (frames[:, 0] > models.num_codewords))
+    if outside.size:
+        raise FormatError(
+            f"{path}: frame {first + outside[0]} has the codeword {frames[outside[0], 0]:g}, and the models have 1 to "
+            f"{models.num_codewords}"
+        )

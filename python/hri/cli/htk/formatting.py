@@ -16,6 +16,17 @@ _Timed = RecognisedWord | AlignedModel | AlignedState
 
 
 @dataclass(frozen=True)
+class _Times:
+    """Of frames, in 100 ns."""
+
+    begin: int
+    period: int
+
+    def of(self, frame: int) -> int:
+        return self.begin + frame * self.period
+
+
+@dataclass(frozen=True)
 class LabelFormat:
     """What labels hold.
 
@@ -46,6 +57,7 @@ class LabelFormat:
         aligned: Sequence[Sequence[AlignedModel]],
         names: Sequence[Sequence[str]],
         period: int,
+        begin: int = 0,
     ) -> list[Label]:
         """Labels of a sentence.
 
@@ -58,29 +70,32 @@ class LabelFormat:
             Of these models, as the dictionary has them.
         period : int
             Of frames, in 100 ns.
+        begin : int
+            Of the first frame, in 100 ns.
         """
+        times = _Times(begin, period)
         if not self.is_aligned:
-            return [self._label(word.output, word, period) for word in sentence.words if word.output]
+            return [self._label(word.output, word, times) for word in sentence.words if word.output]
         made: list[Label] = []
         for word, models, of_models in zip(sentence.words, aligned, names, strict=True):
             others = [] if "W" in self.letters else [(word.word, self._score(word))]
             for model, name in zip(models, of_models, strict=True):
-                made += self._of_model(model, strip_contexts(name) if "X" in self.letters else name, others, period)
+                made += self._of_model(model, strip_contexts(name) if "X" in self.letters else name, others, times)
                 # The word stands beside its first model.
                 others = [] if made else others
         return made
 
     def _of_model(
-        self, model: AlignedModel, name: str, others: list[tuple[str, float | None]], period: int
+        self, model: AlignedModel, name: str, others: list[tuple[str, float | None]], times: _Times
     ) -> list[Label]:
         if not self.states:
-            return [self._label(name, model, period, others)]
+            return [self._label(name, model, times, others)]
         made = []
         with_name = self.models and "M" not in self.letters
         for state in model.states:
             above = [(name, self._score(model))] if with_name and state is model.states[0] else []
             text = f"s{state.state}" if self.models else f"{name}[{state.state}]"
-            made.append(self._label(text, state, period, [*above, *others]))
+            made.append(self._label(text, state, times, [*above, *others]))
             others = []
         return made
 
@@ -91,11 +106,11 @@ class LabelFormat:
         return round(one.log_score / frames if "N" in self.letters and frames else one.log_score, 6)
 
     def _label(
-        self, name: str, one: _Timed, period: int, others: list[tuple[str, float | None]] | None = None
+        self, name: str, one: _Timed, times: _Times, others: list[tuple[str, float | None]] | None = None
     ) -> Label:
         timed = "T" not in self.letters
-        first = one.first_frame * period if timed else None
-        last = one.last_frame * period if timed else None
+        first = times.of(one.first_frame) if timed else None
+        last = times.of(one.last_frame) if timed else None
         return Label(name, first, last, self._score(one), others or [])
 
 

@@ -64,12 +64,12 @@ name_option = click.option(
 )
 
 
-def load_configuration(paths: Iterable[str]) -> Configuration:
+def load_configuration(paths: Iterable[str], live: bool = False) -> Configuration:
     """What all configuration files set, the last one last, then ``-F``; keys that set nothing are named.
 
-    With ``-D`` all settings are printed.
+    With ``-D`` all settings are printed. With `live` it is of live sound.
     """
-    configuration = Configuration()
+    configuration = Configuration(live)
     for path in paths:
         configuration.read(path)
     chosen = given_format()

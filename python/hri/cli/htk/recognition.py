@@ -4,23 +4,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from pathlib import Path
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 
 import click
-import numpy as np
-from numpy.typing import NDArray
 
-from hri.cli.groups import FiniteRange
+from hri.cli.groups import FiniteRange, is_given, refuse_given
 from hri.cli.htk.data import DataFile, check_headers, data_files, load_frames
+from hri.cli.htk.decoding import ResultFiles, SentenceFinder
 from hri.cli.htk.formatting import LabelFormat
+from hri.cli.htk.live import BUFFER_S, LiveRecognition
 from hri.cli.htk.options import (
     ModelFiles,
     References,
+    all_arguments,
     listed_models_options,
     load_configuration,
     models_option,
     recording_options,
+    stacked,
 )
 from hri.cli.htk.standard import (
     ADAPTATION,
@@ -28,35 +30,34 @@ from hri.cli.htk.standard import (
     INPUT,
     HtkCommand,
     NumbersOption,
+    given_format,
     is_number,
     only_format,
     refused_options,
 )
 from hri.cli.htk.vocabulary import Vocabulary, transcripts_of
+from hri.cli.live_screen import device_option, microphone, recording, stall_option
 from hri.cli.messages import note
 from hri.cli.output import OutputFile
 from hri.core.errors import FormatError, InvalidArgument
-from hri.core.files import make_folder
-from hri.htk import (
-    MasterLabelFile,
-    RecognisedSentence,
-    Recognizer,
-    Transcription,
-    WordLattice,
-    read_list,
-    require_words,
-)
+from hri.htk import Recognizer, WordLattice, read_list, require_words
 from hri.htk.sentences import NULL
-from hri.language import ConnectedDecoderOptions, LatticeOptions
+from hri.language import ConnectedDecoderOptions
+from hri.live import AudioSource
 
 NO_BEAM = 1e12
 MOST_SENTENCES = 1000
-LATTICE_BEAMS = (1000.0, 4000.0, 16000.0, 64000.0)
-"""The next one where sentences are too few."""
-UNIT_S = 1e-7
-"""Of times in HTK's files."""
-NOTHING = "there is nothing to recognise"
-_NO_AUDIO = "recordings come from files"
+NOTHING = "there is nothing to recognise: name recordings, or add --live for the microphone"
+live_options = stacked(
+    click.option(
+        "--live", is_flag=True, help="Recognise live sound: of the microphone, or of FILES that are played as a stream."
+    ),
+    device_option,
+    stall_option,
+    click.option("--paced", is_flag=True, help="With --live: play recordings as fast as they were spoken."),
+    click.option("--json-lines", "as_json", is_flag=True, help="With --live: a line of JSON for every event."),
+    click.option("-e", "saves", is_flag=True, help="With --live: write a label file for every utterance."),
+)
 
 
 def _num_sentences(context: click.Context, option: click.Parameter, value: str | None) -> int:
@@ -133,9 +134,9 @@ def _beams(context: click.Context, option: click.Parameter, value: str) -> list[
 @click.option(
     "-z", "lattice_suffix", metavar="EXT", help="With -n: write lattices with this suffix beside the results."
 )
+@live_options
 @refused_options(
-    e=(_NO_AUDIO, 0),
-    g=(_NO_AUDIO, 0),
+    g=("utterances are not played again", 0),
     h=("there are no transforms of models", 1),
     j=("there are no transforms of models", 1),
     k=("there are no transforms of models", 0),
@@ -174,18 +175,29 @@ def vite(
     word_beam: float | None,
     lattice_letters: str,
     lattice_suffix: str | None,
+    live: bool,
+    device: str | None,
+    stall_s: float,
+    paced: bool,
+    as_json: bool,
+    saves: bool,
     dictionary: str,
     model_list: str,
     files: tuple[str, ...],
 ) -> None:
     """Recognise parameter files by a word network, or align their transcriptions, as HVite.
 
+    With --live, utterances are cut at silence, coded as TARGETKIND says, and recognised until Ctrl-C.
+
     \b
-    Example:
+    Examples:
       hri htk vite -H models -w wdnet -S test.scp -i found.mlf dict list
       hri htk vite -H models -w wdnet -n 4 20 -z lat -S test.scp -l lattices dict list
       hri htk vite -H models -a -m -o SW -I words.mlf -S train.scp -i phones.mlf dict list
+      hri htk vite --live -C config -H models -w wdnet dict list
     """
+    if live and (align or network is None):
+        raise click.UsageError("--live takes -w SLF: live sound is recognised, not aligned")
     if align == (network is not None):
         raise click.UsageError("either -w SLF or -a")
     if lattice_suffix is not None and (num_sentences == 0 or folder == "*"):
@@ -193,15 +205,16 @@ def vite(
     if set(lattice_letters) != set("tal"):
         raise click.UsageError("-q takes tal: lattices have times, acoustic and language scores, and words on nodes")
     form = LabelFormat(letters, models, states)
-    configuration = load_configuration(configs)
-    recordings = data_files(files, scripts, NOTHING)
+    played = all_arguments(files, scripts) if live else []
+    _check_source(live, played)
+    configuration = load_configuration(configs, live)
+    recordings = [] if live else data_files(files, scripts, NOTHING)
     vocabulary = Vocabulary(dictionary, read_list(model_list), model_list, pronunciation_scale)
     sources = ModelFiles(macros)
     if network is not None:
         lattice = WordLattice.read(network)
         require_words(lattice, network, vocabulary.dictionary, dictionary)
         words = [word for word in lattice.words if word != NULL]
-        lattice_of: Callable[[DataFile], WordLattice] = lambda _: lattice  # noqa: E731
     else:
         edge = [] if boundary is None else [boundary]
         if boundary is not None and not vocabulary.has(boundary):
@@ -209,80 +222,68 @@ def vite(
         references = References(masters, label_folder, suffix)
         said = transcripts_of([file.name for file in recordings], references, vocabulary)
         words = [*edge, *(label.name for labels in said.values() for label in labels)]
-        lattice_of = lambda file: WordLattice.of_words(  # noqa: E731
-            [*edge, *(label.name for label in said[file.name]), *edge]
-        )
     selected = vocabulary.select(words, sources, model_folder, model_suffix)
+
+    def recognizers_by(lattice: WordLattice, name: str) -> Iterator[Recognizer]:
+        for beam in beams:
+            options = ConnectedDecoderOptions(beam=beam, language_scale=scale, insertion_penalty=penalty)
+            try:
+                yield Recognizer(sources.models, selected, lattice, options)
+            except InvalidArgument as error:
+                raise FormatError(f"{name}: {error}") from error
+
+    finder = SentenceFinder(vocabulary, form, num_sentences)
+    results = ResultFiles(folder, out_suffix, master, lattice_suffix)
+    if live and network is not None:
+        find = partial(finder.find, list(recognizers_by(lattice, network)))
+        recognition = LiveRecognition(sources.models, configuration, find, results, saves or master is not None)
+        if not played:
+            recognition.require_rate()
+        recognition.run(_streams(played, paced, device, stall_s), as_json, with_labels=trace > 0)
+        return
     period = check_headers(recordings, sources.models, configuration)
-
-    def recognizer_of(file: DataFile, beam: float) -> Recognizer:
-        options = ConnectedDecoderOptions(beam=beam, language_scale=scale, insertion_penalty=penalty)
-        try:
-            return Recognizer(sources.models, selected, lattice_of(file), options)
-        except InvalidArgument as error:
-            raise FormatError(f"{network or file.name}: {error}") from error
-
-    shared = None if network is None else [recognizer_of(recordings[0], beam) for beam in beams]
-    entries = []
+    recognizers_of: Callable[[DataFile], Iterable[Recognizer]]
+    if network is not None:
+        shared = list(recognizers_by(lattice, network))
+        recognizers_of = lambda _: shared  # noqa: E731
+    else:
+        recognizers_of = lambda file: recognizers_by(  # noqa: E731
+            WordLattice.of_words([*edge, *(label.name for label in said[file.name]), *edge]), file.name
+        )
     for file in recordings:
         frames = load_frames(file, sources.models, configuration)
-        path = Path(file.name).with_suffix(f".{out_suffix}")
-        target = path if folder is None else Path(folder, path.name)
-        lattice_path = None if lattice_suffix is None else target.with_suffix(f".{lattice_suffix}")
-        recognizers = iter(shared) if shared is not None else (recognizer_of(file, beam) for beam in beams)
-        recognizer, sentences = _first_found(recognizers, frames, num_sentences, lattice_path, period)
-        if not sentences:
+        found = finder.find(recognizers_of(file), frames, period, results.lattice_path(file.name))
+        if found is None:
             note(f"{file.name}: no sentence of the network ends with the recording")
             continue
-        all_labels = []
-        for one in sentences:
-            aligned = recognizer.align(frames, one) if form.is_aligned else []
-            names = [vocabulary.logical(word.pronunciation) for word in one.words]
-            all_labels.append(form.labels(one, aligned, names, period))
-        first, *others = all_labels
-        found = Transcription(first, others)
-        entries.append((str(target), found))
         if trace:
-            spoken = " ".join(word.output for word in sentences[0].words if word.output)
-            score = sentences[0].log_score / len(frames)
-            click.echo(f"File: {file.name}\n{spoken}  ==  [{len(frames)} frames] {score:.4f}")
-        if master is None:
-            make_folder(target.parent)
-            found.write(target)
-    if master is not None:
-        make_folder(Path(master).parent)
-        MasterLabelFile(entries).write(master)
+            click.echo(f"File: {file.name}\n{found.line}")
+        results.add(file.name, found.transcription)
+    results.finish()
 
 
-def _first_found(
-    recognizers: Iterator[Recognizer],
-    frames: NDArray[np.float32],
-    num_sentences: int,
-    lattice_path: Path | None,
-    period: int,
-) -> tuple[Recognizer, list[RecognisedSentence]]:
-    """Sentences by the first of the recognisers, whose beams grow, that finds any; and that one, or the last."""
-    for recognizer in recognizers:
-        found = _recognised(recognizer, frames, num_sentences, lattice_path, period)
-        if found:
-            break
-    return recognizer, found
+def _check_source(live: bool, played: list[str]) -> None:
+    """Refuse options that would have no effect."""
+    if not live:
+        refuse_given(("device", "stall_s", "paced", "as_json", "saves"), "goes with --live")
+        return
+    if given_format() is not None:
+        raise click.UsageError("-F is of recordings that are read, and --live takes sound")
+    if played:
+        refuse_given(("device", "stall_s"), "is of a microphone, and FILES take its place")
+    else:
+        refuse_given(("paced",), "is of recordings: name FILES")
+    if not is_given("saves", "master", "lattice_suffix"):
+        refuse_given(("folder", "out_suffix"), "is of files, which with --live -e, -i and -z write")
+    if not is_given("saves", "master", "trace", "as_json"):
+        refuse_given(
+            ("models", "states", "letters"), "is of labels, which with --live -T 1, -e, -i and --json-lines show"
+        )
 
 
-def _recognised(
-    recognizer: Recognizer, frames: NDArray[np.float32], num_sentences: int, lattice_path: Path | None, period: int
-) -> list[RecognisedSentence]:
-    """The best sentences, one without a number; none where none is complete."""
-    if num_sentences == 0:
-        sentence = recognizer.recognise(frames)
-        return [sentence] if sentence.complete else []
-    for beam in LATTICE_BEAMS:
-        lattice = recognizer.lattice(frames, LatticeOptions(beam=beam))
-        found = recognizer.n_best(lattice, num_sentences)
-        if len(found) >= num_sentences:
-            break
-    if lattice_path is not None and not lattice.empty:
-        make_folder(lattice_path.parent)
-        weighed = (recognizer.options.language_scale, recognizer.options.insertion_penalty)
-        WordLattice.of_lattice(lattice, recognizer.words, 0.0, period * UNIT_S, *weighed).write(lattice_path)
-    return found
+def _streams(played: list[str], paced: bool, device: str | None, stall_s: float) -> Iterator[AudioSource]:
+    """Recordings, each opened when its turn comes; without any the microphone."""
+    for path in played:
+        yield recording(path, paced)
+    if not played:
+        yield microphone(device, stall_s, BUFFER_S)
