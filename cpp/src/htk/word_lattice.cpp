@@ -13,8 +13,9 @@
 namespace hri::htk {
 namespace {
 
-constexpr std::int64_t kMost = 10000000;  // nodes or arcs of a file
-constexpr double kLargestField = 1e12;    // of scores, natural logs, and of times
+constexpr std::int64_t kMost = 10000000;                  // nodes or arcs of a file
+constexpr double kLargestField = 1e12;                    // of scores, natural logs, and of times
+constexpr std::size_t kMostKept = std::size_t{1} << 26U;  // bytes of the text that was read
 
 // NAME=VALUE fields of one line.
 using Fields = std::map<std::string, std::string>;
@@ -287,6 +288,18 @@ std::string word_text(const std::string& word) {
   return word.find('=') == std::string::npos ? detail::quoted(word) : detail::in_quotes(word);
 }
 
+// Whether both say the same; lines of a file are no part of it.
+bool same(const WordLattice& a, const WordLattice& b) {
+  const auto same_arc = [](const WordLattice::Arc& x, const WordLattice::Arc& y) {
+    return x.from == y.from && x.to == y.to && x.log_weight == y.log_weight &&
+           x.log_acoustic == y.log_acoustic;
+  };
+  return a.words == b.words && a.times_s == b.times_s && a.variants == b.variants &&
+         a.start == b.start && a.end == b.end && a.language_scale == b.language_scale &&
+         a.insertion_penalty == b.insertion_penalty &&
+         std::equal(a.arcs.begin(), a.arcs.end(), b.arcs.begin(), b.arcs.end(), same_arc);
+}
+
 std::string padded(const std::string& text, std::size_t width) {
   return text.size() < width ? text + std::string(width - text.size(), ' ') : text;
 }
@@ -334,7 +347,9 @@ WordLattice WordLattice::of_words(const std::vector<std::string>& sentence) {
 
 WordLattice WordLattice::parse(const std::string& text, const std::string& name) {
   detail::require_text(text, name);
-  return LatticeReader(text, name).read();
+  WordLattice lattice = LatticeReader(text, name).read();
+  if (text.size() <= kMostKept) lattice.text_ = text;
+  return lattice;
 }
 
 WordLattice WordLattice::read(const std::string& path) {
@@ -348,6 +363,7 @@ WordLattice WordLattice::read_grammar(const std::string& path) {
 std::string WordLattice::to_text() const {
   const std::string found = fault();
   require(found.empty(), found.c_str());
+  if (!text_.empty() && same(*this, LatticeReader(text_, "text").read())) return text_;
   std::string text = "VERSION=1.0\n";
   if (!times_s.empty() || language_scale != 1 || insertion_penalty != 0)
     text += "lmscale=" + detail::shortest(language_scale) +

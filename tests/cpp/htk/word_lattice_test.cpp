@@ -10,7 +10,6 @@
 #include <set>
 
 #include "hri/core/error.hpp"
-#include "hri/htk/dictionary.hpp"
 
 namespace hri::htk {
 namespace {
@@ -227,16 +226,87 @@ TEST(WordLattice, ReadsFilesOfOtherPrograms) {
   EXPECT_NEAR(lattice.arcs[0].log_weight, -2.302585092994046, 1e-12);
 }
 
+// Line ends, comments, fields that nothing is made of, nodes and arcs in any order, numbers as they
+// were written, words on arcs, and no end of the last line.
+const std::vector<std::string>& foreign_lattices() {
+  static const std::vector<std::string> texts{
+      "VERSION=1.0\r\nUTTERANCE=s1.mfc\r\n# by another program\r\nlmname=bg lmscale=14.00 "
+      "wdpenalty=-0.00\r\nvocab=dict\r\nN=4    L=3   \r\nI=3    t=1.50\r\n\r\nI=1    t=0.250 W=one"
+      "  v=1\r\nI=0    t=0.00  W=!NULL\r\nI=2    t=0.70  W=\"two\" v=2\r\n# arcs\r\nJ=2     S=2    "
+      "E=3    a=-10.50   l=-1.00\r\nJ=0     S=0    E=1    a=-1e+3 l=0.000 r=0.00\r\nJ=1 S=1 E=2 "
+      "p=0.5 l=-2\r\n",
+      "VERSION=1.0\nbase=10\nNODES=2 LINKS=2\nI=0\nI=1 time=0.30\nJ=0 START=0 END=1 WORD=a "
+      "acoustic=-5.0\nJ=1 START=0 END=1 WORD=b  \t",
+      "start=0 end=1\nN=2 L=2\nI=0 W=a\nI=1 W=b\nJ=0 S=0 E=1\nJ=1 S=1 E=0\n\n\n"};
+  return texts;
+}
+
+TEST(WordLattice, WritesFilesOfOtherProgramsByteForByte) {
+  for (const std::string& text : foreign_lattices()) {
+    const WordLattice read = WordLattice::parse(text, "other.slf");
+    EXPECT_EQ(read.to_text(), text);
+    const WordLattice copy = read;
+    EXPECT_EQ(copy.to_text(), text);
+    const std::string path = testing::TempDir() + "hri_other.slf";
+    read.write(path);
+    EXPECT_EQ(WordLattice::read(path).to_text(), text);
+  }
+}
+
+TEST(WordLattice, WritesWhatWasChangedInItsOwnForm) {
+  using Change = std::function<void(WordLattice&)>;
+  const std::vector<Change> changes{
+      [](WordLattice& l) { l.words[1] = "other"; },
+      [](WordLattice& l) { l.arcs[0].log_weight -= 1; },
+      [](WordLattice& l) { l.arcs[1].log_acoustic = -7; },
+      [](WordLattice& l) { l.arcs.push_back(l.arcs[0]); },
+      [](WordLattice& l) { l.language_scale += 1; },
+      [](WordLattice& l) { l.insertion_penalty -= 1; },
+      [](WordLattice& l) { l.times_s.assign(l.words.size(), 0.5); },
+      [](WordLattice& l) { l.variants.assign(l.words.size(), 3); },
+      [](WordLattice& l) { l.start = l.start == WordLattice::kByArcs ? l.first() : l.last(); },
+  };
+  for (const std::string& text : foreign_lattices()) {
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      WordLattice changed = WordLattice::parse(text, "other.slf");
+      const WordLattice before = changed;
+      changes[i](changed);
+      const std::string written = changed.to_text();
+      EXPECT_EQ(written.substr(0, 12), "VERSION=1.0\n") << i;
+      EXPECT_EQ(written.find('#'), std::string::npos) << i;
+      EXPECT_EQ(written.find('\r'), std::string::npos) << i;
+      const WordLattice again = WordLattice::parse(written, "again");
+      EXPECT_EQ(again.words, changed.words);
+      EXPECT_EQ(again.start, changed.start);
+      ASSERT_EQ(again.arcs.size(), changed.arcs.size());
+      EXPECT_EQ(again.arcs[0].log_weight, changed.arcs[0].log_weight);
+      EXPECT_EQ(again.arcs[1].log_acoustic, changed.arcs[1].log_acoustic);
+      EXPECT_EQ(again.language_scale, changed.language_scale);
+      // As it was before, it is written as it was read.
+      changed.words = before.words;
+      changed.arcs = before.arcs;
+      changed.language_scale = before.language_scale;
+      changed.insertion_penalty = before.insertion_penalty;
+      changed.times_s = before.times_s;
+      changed.variants = before.variants;
+      changed.start = before.start;
+      changed.end = before.end;
+      EXPECT_EQ(changed.to_text(), text) << i;
+    }
+  }
+  WordLattice broken = WordLattice::parse(foreign_lattices()[0], "other.slf");
+  broken.arcs[0].to = 99;
+  EXPECT_THROW((void)broken.to_text(), InvalidArgument);
+}
+
 TEST(WordLattice, ReadsLongNamesOfFields) {
   const WordLattice by_nodes = WordLattice::parse(
       "VERSION=1.0\nNODES=3 LINKS=2\nI=0 time=0\nI=1 time=0.5 WORD=one var=2\nI=2 time=1\n"
       "J=0 START=0 END=1 acoustic=-9 language=-1.5\nJ=1 START=1 END=2\n",
       "long.slf");
-  EXPECT_EQ(by_nodes.to_text(),
-            WordLattice::parse("VERSION=1.0\nN=3 L=2\nI=0 t=0\nI=1 t=0.5 W=one v=2\nI=2 t=1\n"
-                               "J=0 S=0 E=1 a=-9 l=-1.5\nJ=1 S=1 E=2\n",
-                               "short.slf")
-                .to_text());
+  EXPECT_EQ(by_nodes.times_s, (std::vector<double>{0, 0.5, 1}));
+  EXPECT_EQ(by_nodes.variants, (std::vector<int>{0, 2, 0}));
+  EXPECT_EQ(by_nodes.arcs[0].log_acoustic, -9);
   EXPECT_EQ(by_nodes.words[1], "one");
   EXPECT_EQ(by_nodes.arcs[0].log_weight, -1.5);
   const WordLattice by_arcs = WordLattice::parse(
@@ -349,62 +419,6 @@ TEST(WordLattice, RefusesDamagedFilesByNameAndLine) {
   EXPECT_EQ(lattice_refusal("N=4 L=5\nI=0\nI=1\nI=2\nI=3\nJ=0 S=0 E=1\nJ=1 S=1 E=2\nJ=2 S=2 E=1\n"
                             "J=3 S=2 E=3\nJ=4 S=0 E=3\n"),
             "file: line 10: nodes without words make a cycle");
-}
-
-TEST(Dictionary, WritesLinesAsTheyWereWhileTheySayTheSame) {
-  const std::string text = "ONE             [one]  0.50 w  ah n sp\nSENT-END        []  sil\n";
-  Dictionary d = Dictionary::parse(text, "words.dic");
-  EXPECT_EQ(d.to_text(), text);
-  EXPECT_EQ(d.entries[1].line, 2);
-  d.entries[0].models.pop_back();
-  EXPECT_EQ(d.to_text(), "ONE [one] 0.5 w ah n\nSENT-END        []  sil\n");
-}
-
-TEST(Dictionary, ReadsOutputsAndProbabilities) {
-  const Dictionary d = Dictionary::parse(
-      "one w ah n\none [1] 0.25 hh w ah n\nSENT-START [] sil\n7 7\n\"8\" \"[x]\" "
-      "\"#\\\"\" t\n",
-      "words.dic");
-  ASSERT_EQ(d.entries.size(), 5U);
-  EXPECT_FALSE(d.entries[0].has_output);
-  EXPECT_EQ(d.entries[1].output, "1");
-  EXPECT_EQ(d.entries[1].probability, 0.25);
-  EXPECT_EQ(d.entries[1].models, (Words{"hh", "w", "ah", "n"}));
-  EXPECT_TRUE(d.entries[2].has_output);
-  EXPECT_EQ(d.entries[2].output, "");
-  EXPECT_EQ(d.entries[3].models, Words{"7"});
-  EXPECT_EQ(d.entries[4].models[0], "[x]");
-  EXPECT_EQ(d.by_word().at("one"), (std::vector<int>{0, 1}));
-  const std::string text = d.to_text();
-  EXPECT_EQ(Dictionary::parse(text, "again").to_text(), text);
-}
-
-TEST(Dictionary, HasWordsWithHashes) {
-  const std::string text = "#no n ow\n# [#] hash\n#\\\"  h#\n";
-  Dictionary d = Dictionary::parse(text, "words.dic");
-  ASSERT_EQ(d.entries.size(), 3U);
-  EXPECT_EQ(d.entries[0].word, "#no");
-  EXPECT_EQ(d.entries[1].word, "#");
-  EXPECT_EQ(d.entries[2].word, "#\"");
-  EXPECT_EQ(d.to_text(), text);
-  for (Pronunciation& entry : d.entries) entry.text.clear();
-  EXPECT_EQ(Dictionary::parse(d.to_text(), "again").entries[2].word, "#\"");
-}
-
-TEST(Dictionary, RefusesByNameAndLine) {
-  const auto of = [](const std::string& text) {
-    return refusal_of_lattice(text, Dictionary::parse);
-  };
-  EXPECT_EQ(of("one w\ntwo\n"), "file: line 2: 'two' has no models");
-  EXPECT_EQ(of("one [1]\n"), "file: line 1: 'one' has no models");
-  EXPECT_EQ(of("one 1.5 w\n"),
-            "file: line 1: the probability of a pronunciation is outside 0..1, 0 excluded");
-  EXPECT_EQ(of("one \"w\n"), "file: line 1: a quotation does not end");
-  EXPECT_EQ(of("one \"\" w\n"), "file: line 1: the name of a model is empty");
-  EXPECT_EQ(of("\xff w\n"), "file: line 1: is not UTF-8 text");
-  for (const char* wrong : {"one\\377 w\n", "one [\\377] w\n", "one w\\012x\n", "one w\\000\n"})
-    EXPECT_EQ(of(wrong), "file: line 1: a name is not UTF-8 text of one line");
-  EXPECT_EQ(Dictionary::parse("\\303\\244 w\n", "d").entries[0].word, "\xc3\xa4");
 }
 
 }  // namespace

@@ -79,7 +79,8 @@ struct HRI_API WordLattice {
                                    const std::vector<std::string>& silences, double first_s,
                                    double frame_s) const;
 
-  /// Throws InvalidArgument for what parse() would refuse.
+  /// The text that was read, byte for byte, while it says the same and has at most 64 MiB; else a
+  /// line a node and arc. Throws InvalidArgument for what parse() would refuse.
   [[nodiscard]] std::string to_text() const;
   void write(const std::string& path) const;
 
@@ -88,6 +89,9 @@ struct HRI_API WordLattice {
   [[nodiscard]] int last() const;
   /// "", or what is wrong with the network.
   [[nodiscard]] std::string fault() const;
+
+ private:
+  std::string text_;  // that it was read from; what it says is compared when it is written
 };
 
 }  // namespace hri::htk
