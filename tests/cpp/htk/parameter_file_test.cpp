@@ -83,14 +83,46 @@ TEST(ParameterFile, ChecksumIsOfBigEndianWords) {
 }
 
 TEST(ParameterFile, IsWrittenAgainAsItWasRead) {
-  for (const char* kind : {"MFCC", "MFCC_K", "MFCC_C", "MFCC_C_K", "MFCC_E_D", "MFCC_0_D_A_K",
-                           "FBANK_D_A_T", "USER_C"}) {
+  for (const char* kind :
+       {"MFCC", "MFCC_K", "MFCC_C", "MFCC_C_K", "MFCC_E_D", "MFCC_0_D_A_K", "FBANK_D_A_T", "USER_C",
+        "LPC_E", "LPREFC_C", "LPCEPSTRA_D_A_K", "LPCEPSTRA_E_D_Z", "MFCC_Z", "MFCC_0_D_A_Z",
+        "MFCC_0_D_Z_C_K", "MELSPEC", "PLP_0_D_A_Z_K"}) {
     const int columns = 6 * ParameterKind::parse(kind).num_blocks();
     const Bytes bytes = sample(kind, columns).serialise();
     const ParameterFile read = ParameterFile::parse(bytes, kind);
     EXPECT_EQ(read.serialise(), bytes) << kind;
     EXPECT_EQ(read.kind.text(), ParameterKind::parse(kind).text());
     EXPECT_EQ(read.num_static(), 6);
+  }
+}
+
+// Bytes as another program writes them, not as they are written here: every 16 bits there are.
+TEST(ParameterFile, OfIntegersIsWrittenAgainAsItWasRead) {
+  for (const char* name : {"WAVEFORM", "DISCRETE", "DISCRETE_K", "IREFC", "IREFC_K", "IREFC_D_Z"}) {
+    const ParameterKind kind = ParameterKind::parse(name);
+    const int columns = kind.num_blocks();
+    const auto frames = static_cast<std::uint32_t>(65536 / columns);
+    Bytes bytes;
+    const auto word = [&](unsigned value) {
+      bytes.push_back(static_cast<std::uint8_t>(value >> 8U));
+      bytes.push_back(static_cast<std::uint8_t>(value & 0xffU));
+    };
+    word(frames >> 16U);
+    word(frames & 0xffffU);
+    word(0);
+    word(625);
+    word(2U * static_cast<unsigned>(columns));
+    word(kind.code());
+    std::uint32_t sum = 0;
+    for (unsigned value = 0; value < 65536; ++value) {
+      word(value);
+      sum = (sum * 65536 + value) % 36897;
+    }
+    if (kind.has(kChecksum)) word(sum);
+    const ParameterFile read = ParameterFile::parse(bytes, name);
+    EXPECT_EQ(read.serialise(), bytes) << name;
+    EXPECT_EQ(read.sample_period, 625);
+    EXPECT_EQ(read.kind.text(), kind.text());
   }
 }
 
