@@ -118,6 +118,44 @@ def test_copy_cuts_and_joins(hri, sounds: Path):
     np.testing.assert_array_equal(ParameterFile.read("cut.mfc").values, np.tile(whole.values[20:30], (2, 1)))
 
 
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("one.wav", "two.wav"), "two.wav is a recording that is there"),
+        (("one.wav", "one.wav"), "one.wav is a source"),
+        (("one.wav", "a.mfc", "two.wav", "link.wav"), "link.wav is a source"),
+        (("one.wav", "+", "u0.usr", "u0.usr"), "u0.usr is a source"),
+        (("one.wav", "a.mfc", "two.wav", "./a.mfc"), "./a.mfc is the target of two pairs"),
+        (("-S", "pairs.scp"), "two.wav is a recording that is there"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, tuple) else "",
+)
+def test_copy_writes_over_no_recording(hri, sounds: Path, arguments: tuple[str, ...], message: str):
+    """As where the targets were forgotten: `copy *.wav`."""
+    Path("link.wav").symlink_to("one.wav")
+    Path("pairs.scp").write_text("one.wav a.mfc one.wav two.wav\n")
+    before = {name: Path(name).read_bytes() for name in ("one.wav", "two.wav", "u0.usr")}
+    refused = hri("htk", "copy", "-C", "config", *arguments)
+    assert refused.code == 2 and message in refused.err
+    assert {name: Path(name).read_bytes() for name in before} == before and not Path("a.mfc").exists()
+
+
+def test_what_a_script_names_is_not_written_over(hri, words: Path):
+    Path("test.scp").write_text("whole.usr\npart=v.usr[0,3]\n")
+    Path("v.usr").rename("kept.usr")
+    for name in ("v.usr", "whole.usr"):
+        Path(name).write_bytes(Path("kept.usr").read_bytes())
+        before = Path(name).read_bytes()
+        for tool in (
+            ("vite", "-H", "models", "-w", "net", "-S", "test.scp", "-i", name, "dict", "list"),
+            ("quant", "-S", "test.scp", name),
+            ("quant", name, "x=v.usr[0,3]", "whole.usr"),
+        ):
+            refused = hri("htk", *tool)
+            assert refused.code == 2 and "is read, and would be written over" in refused.err, refused.err
+        assert Path(name).read_bytes() == before
+
+
 def test_copy_takes_labels_along(hri, sounds: Path):
     given = ("-C", "config", "-L", "labels", "-s", 1_000_000, "-e", 7_000_000)
     succeed(hri("htk", "copy", *given, "-i", "new.mlf", "-l", "*/of", "one.wav", "+", "one.wav", "both.mfc"))

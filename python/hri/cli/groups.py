@@ -51,11 +51,29 @@ class CheckedCommand(click.Command):
             raise click.UsageError(message, error.ctx) from error
 
     def invoke(self, ctx: click.Context) -> Any:
-        _require_outputs_apart(ctx)
+        self._require_outputs_apart(ctx)
         return super().invoke(ctx)
 
+    def files_named_by(self, param: click.Parameter, value: str) -> Iterator[str]:
+        """Other files that a value of this parameter means to be read, as those in a list; none in most commands."""
+        yield from ()
 
-def _require_outputs_apart(ctx: click.Context) -> None:
+    def _require_outputs_apart(self, ctx: click.Context) -> None:
+        outputs = _outputs(ctx)
+        there = {place: name for place, name in outputs.items() if _exists(place)}
+        if not there:  # what is new is nothing that is read: lists of many files need not be looked into
+            return
+        for param in ctx.command.params:
+            if isinstance(param.type, OutputFile):
+                continue
+            for value in _texts(ctx.params.get(param.name or "")):
+                for file in (value, *self.files_named_by(param, value)):
+                    for place, name in there.items():
+                        _require_apart(file, place, name, param, ctx)
+
+
+def _outputs(ctx: click.Context) -> dict[str, str]:
+    """Real paths of the files to write, with the names of their options; no two are the same."""
     outputs: dict[str, str] = {}  # real path to the name of the option
     for param in ctx.command.params:
         if not isinstance(param.type, OutputFile):
@@ -67,21 +85,20 @@ def _require_outputs_apart(ctx: click.Context) -> None:
             if place in outputs:
                 raise click.UsageError(f"{outputs[place]} and {name} are both {value}", ctx)
             outputs[place] = name
-    for param in ctx.command.params:
-        if isinstance(param.type, OutputFile):
-            continue
-        for value in _texts(ctx.params.get(param.name or "")):
-            for place, name in outputs.items():
-                _require_apart(value, place, name, param, ctx)
+    return outputs
+
+
+def _exists(path: str) -> bool:
+    try:
+        return bool(path) and Path(path).exists()
+    except OSError:  # text that is too long for a name is none
+        return False
 
 
 def _require_apart(value: str, place: str, name: str, param: click.Parameter, ctx: click.Context) -> None:
-    """The output `place` of the option `name` is not what `param` reads."""
+    """The output `place` of the option `name`, which exists, is not what `param` reads."""
     there = Path(value)
-    try:
-        if not Path(place).exists() or not there.exists():
-            return
-    except OSError:  # text that is too long for a name is none
+    if not _exists(value):
         return
     writer = next(one for one in ctx.command.params if one.get_error_hint(ctx) == name)
     assert isinstance(writer.type, OutputFile)

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import click
@@ -37,6 +38,7 @@ from hri.htk import (
     list_parameters,
     observation_names,
 )
+from hri.media import kind_of_file
 
 
 def _label_numbers(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, int] | None:
@@ -136,6 +138,7 @@ def copy(
     """
     configuration = load_configuration(configs)
     pairs = _pairs(all_arguments(files, scripts))
+    _require_targets_apart(pairs)
     if numbers is not None and named is not None:
         raise click.UsageError("either -n or -x")
     wants_labels = master is not None or label_target is not None
@@ -191,6 +194,24 @@ def _pairs(names: list[str]) -> list[tuple[list[str], str]]:
     if not pairs:
         raise click.UsageError("files come in pairs of a source, or several with + between them, and a target")
     return pairs
+
+
+def _require_targets_apart(pairs: list[tuple[list[str], str]]) -> None:
+    """No target is a source, a recording that is there, or the target of another pair, as where one was forgotten."""
+    read = {os.path.realpath(source) for sources, _ in pairs for source in sources}
+    written = set()
+    for _, target in pairs:
+        place = os.path.realpath(target)
+        if place in read:
+            raise click.UsageError(f"{target} is a source, and would be written over")
+        if place in written:
+            raise click.UsageError(f"{target} is the target of two pairs")
+        if kind_of_file(Path(target)) == "a sound file" and Path(target).exists():
+            raise click.UsageError(
+                f"{target} is a recording that is there, and would be written over; files come in pairs of a source "
+                "and a target"
+            )
+        written.add(place)
 
 
 def _span(

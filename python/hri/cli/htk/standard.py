@@ -4,19 +4,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterator
 from typing import Any, TypeVar
 
 import click
 
 from hri import __version__
 from hri.cli.groups import CheckedCommand
+from hri.htk import read_script
 
 F = TypeVar("F", bound=Callable[..., Any])
 INPUT = click.Path(exists=True, dir_okay=False)
 _ARGUMENTS = "hri.htk.arguments"
 _DISPLAY = "hri.htk.display"
 _FORMAT = "hri.htk.format"
+_PART = re.compile(r"\[\d+,\d+\]$")
 
 
 class NumbersOption(click.Option):
@@ -36,7 +39,10 @@ class NumbersOption(click.Option):
 
 
 class HtkCommand(CheckedCommand):
-    """A tool of HTK: ``-h`` is no help, options may take several numbers, ``-A`` shows the arguments."""
+    """A tool of HTK: ``-h`` is no help, options may take several numbers, ``-A`` shows the arguments.
+
+    What a script of ``-S`` names is read as what stands on the command line is, and never written over either.
+    """
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         kwargs["context_settings"] = {"help_option_names": ["--help"], **kwargs.get("context_settings", {})}
@@ -54,6 +60,13 @@ class HtkCommand(CheckedCommand):
                 given[at + 1 : end] = [" ".join(given[at + 1 : end])]
             at += 1
         return super().parse_args(ctx, given)
+
+    def files_named_by(self, param: click.Parameter, value: str) -> Iterator[str]:
+        """Of a script, its arguments; of every argument `name=path[first,last]` also the path alone."""
+        arguments = read_script(value) if param.name == "scripts" else []
+        yield from arguments
+        for argument in (value, *arguments):
+            yield _PART.sub("", argument).rpartition("=")[2]
 
 
 def is_number(text: str) -> bool:
