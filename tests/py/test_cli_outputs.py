@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import json
+import subprocess
 import sys
 import warnings
 from pathlib import Path
@@ -153,6 +155,35 @@ def test_what_has_no_effect_is_refused(hri, arguments: tuple[str, ...], message:
     places = {"SAID": said, "FOLDER": said.parent, "MODEL": model, "sign.jpg": picture}
     done = hri(*(places.get(argument, argument) for argument in arguments))
     assert done.code == 2 and message in done.err, done.err
+
+
+@pytest.mark.parametrize("name", ["-", "/dev/stdout", "/dev/fd/1", "LINK"])
+def test_standard_output_is_written_on_where_it_is_a_file(name: str, tmp_path: Path) -> None:
+    """A file that took the place of what the shell has opened would lose what stands before and comes after."""
+    (tmp_path / "LINK").symlink_to("/dev/stdout")
+    hri = (sys.executable, "-m", "hri", "options", "speech", "--json", name)
+    with (tmp_path / "log").open("wb") as log:
+        log.write(b"first\n")
+        log.flush()
+        subprocess.run(hri, stdout=log, check=True, cwd=tmp_path)
+        subprocess.run(("echo", "last"), stdout=log, check=True)
+    text = (tmp_path / "log").read_text()
+    assert text.startswith("first\n") and text.endswith("\nlast\n")
+    assert json.loads(text.removeprefix("first\n").removesuffix("last\n"))["kind"] == "speech"
+
+
+@pytest.mark.parametrize("name", ["/dev/stderr", "/dev/fd/2", "/proc/self/fd/2", "/proc/thread-self/fd/2"])
+def test_other_streams_are_no_files(name: str, tmp_path: Path) -> None:
+    hri = (sys.executable, "-m", "hri", "options", "speech", "--json", name)
+    with (tmp_path / "log").open("wb") as log:
+        done = subprocess.run(hri, stdout=subprocess.DEVNULL, stderr=log, check=False)
+    assert done.returncode == 2
+    assert f"'{name}' cannot be written: it is a stream; name a file, or - for" in (tmp_path / "log").read_text()
+
+
+def test_a_model_is_no_stream(hri, said: Path, model: Path) -> None:
+    done = hri("adapt", "--model", model, "-o", "/dev/stdout", "--label", "new", said)
+    assert done.code == 2 and "'/dev/stdout' cannot be written: it is a stream; name a file (see" in done.err
 
 
 def test_without_standard_error_there_are_no_bars(

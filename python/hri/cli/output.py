@@ -8,6 +8,7 @@ import codecs
 import io
 import json
 import os
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,6 +17,8 @@ from typing import Any
 import click
 
 from hri.core import files
+
+_STREAMS = re.compile(r"/dev/fd|/proc/\d+(/task/\d+)?/fd")
 
 
 class OutputFile(click.Path):
@@ -26,7 +29,8 @@ class OutputFile(click.Path):
     suffixes : sequence of str
         Those allowed, such as (".png",); any if empty.
     allow_dash : bool
-        Whether "-" means standard output.
+        Whether "-" means standard output, as then /dev/stdout does; other streams are refused, for a file takes the
+        place of another by its name, which would be that of the file that a shell has opened.
     replaces : sequence of str
         Parameters whose file it may be, as of a model that is written anew; no other file that is read.
     path_type : str or Path
@@ -49,6 +53,12 @@ class OutputFile(click.Path):
         if text == "-" and self.allow_dash:
             return text
         path = Path(text)
+        stream = _stream_named(path)
+        if stream == "1" and self.allow_dash:
+            return "-"
+        if stream is not None:
+            instead = ", or - for standard output" if self.allow_dash else ""
+            self.fail(f"'{path}' cannot be written: it is a stream; name a file{instead}", param, ctx)
         if self._suffixes and path.suffix.lower() not in self._suffixes:
             self.fail(f"'{path}' must end in one of {' '.join(self._suffixes)}", param, ctx)
         folder = path.absolute().parent
@@ -59,6 +69,24 @@ class OutputFile(click.Path):
         if path.exists() and not path.is_file():
             self.fail(f"'{path}' cannot be written: it is not a regular file", param, ctx)
         return self._kind(text)
+
+
+def _stream_named(path: Path) -> str | None:
+    """Which open stream of a process, this one or another, a path like /dev/stdout and /dev/fd/3 means; None: a file.
+
+    What a stream leads to is not looked at: where that is a regular file, its path would look like any other.
+    """
+    own = os.path.realpath("/dev/fd")
+    for _ in range(40):  # links, as many as systems follow
+        folder = os.path.realpath(path.parent)
+        if folder == own:
+            return path.name
+        if _STREAMS.fullmatch(folder):
+            return f"{folder}/{path.name}"
+        if not path.is_symlink():
+            break
+        path = path.parent / path.readlink()
+    return None
 
 
 json_option = click.option(
