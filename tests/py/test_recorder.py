@@ -152,6 +152,25 @@ def test_what_cannot_be_recorded_is_said_before(tmp_path: Path) -> None:
         list(WordRecorder(tmp_path / "file", ["go"], "asha").record(ArraySource(said(LABELS), RATE_HZ)))
 
 
+@pytest.mark.parametrize("there", ["five/asha.jpg", "seven.wav", "go/asha_1.flac", "a/b/asha_1.wav"])
+def test_a_folder_of_other_recordings_is_left_alone(hri, tmp_path: Path, there: str) -> None:
+    """A manifest would hide them: of signs nothing could be trained any more."""
+    _native.write_wav_pcm16(str(tmp_path / "one.wav"), said(LABELS), RATE_HZ)
+    out = tmp_path / "data"
+    (out / there).parent.mkdir(parents=True)
+    (out / there).touch()
+    refused = hri("record", "word", "go", "--person", "a", "--out", out, "--from", tmp_path / "one.wav")
+    assert refused.code == 3 and f"such as {there}: record into another folder" in refused.err
+    assert [path for path in out.rglob("*") if path.is_file()] == [out / there]
+
+
+def test_recordings_of_the_same_pattern_and_noises_need_no_manifest(tmp_path: Path) -> None:
+    for name in ("go/ben_1.wav", "_background_noise_/rain.wav", ".hidden/a.jpg", "notes.txt"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).touch()
+    assert WordRecorder(tmp_path, ["go"], "ben", takes=2).missing() == [("go", 2)]
+
+
 def test_the_command_records_from_a_recording_and_goes_on(hri, tmp_path: Path) -> None:
     _native.write_wav_pcm16(str(tmp_path / "one.wav"), said(LABELS), RATE_HZ)
     out = tmp_path / "words"

@@ -10,6 +10,8 @@ from pathlib import Path
 
 from hri.core.errors import InvalidArgument, IoError
 from hri.core.text import is_printable
+from hri.datasets import Pattern
+from hri.datasets.detection import SUFFIXES, is_noise, media_files
 from hri.datasets.manifest import MANIFEST_NAME, Manifest, read_manifest, write_manifest
 from hri.live import events
 from hri.live.events import Event
@@ -24,7 +26,8 @@ class Takes:
     Parameters
     ----------
     folder : path-like
-        Made with the first recording. A manifest in it must have the pattern.
+        Made with the first recording. A manifest in it must have the pattern; without one, all recordings in it must
+        fit the pattern: the manifest that is written then would hide the others.
     labels : sequence of str
         In the order of the prompts.
     person : str
@@ -115,6 +118,7 @@ class Takes:
     def _require_fitting_manifest(self) -> None:
         manifest = self.folder / MANIFEST_NAME
         if not manifest.exists():
+            self._require_fitting_files()
             return
         found = read_manifest(manifest)
         if found.synthetic:
@@ -126,6 +130,19 @@ class Takes:
         for label in self._labels if found.labels else ():
             if label not in found.labels:
                 raise InvalidArgument(f"label '{label}' is not among the labels of {manifest}")
+
+    def _require_fitting_files(self) -> None:
+        """Without a manifest."""
+        pattern = Pattern(self._pattern)
+        for kind in SUFFIXES:
+            for path in media_files(self.folder, kind):
+                name = path.relative_to(self.folder).as_posix()
+                fits = kind == self._kind and pattern.match(name) is not None
+                if not fits and not is_noise(self.folder, path):
+                    raise InvalidArgument(
+                        f"{self.folder} holds recordings that are not '{self._pattern}' for {self._kind}, such as "
+                        f"{name}: record into another folder"
+                    )
 
 
 def _require_name(what: str, text: str) -> None:
