@@ -5,12 +5,16 @@
 from __future__ import annotations
 
 import re
+import shutil
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import hri
+from conftest import QUICK, RATE_HZ
+from hri.io import write_wav_pcm16
 from hri.training import choices, choose_options
 
 
@@ -76,3 +80,33 @@ def test_gestures_are_of_the_source_that_is_chosen(signed: Path, monkeypatch: py
     dataset = hri.Dataset.load(signed)
     assert choose_options(dataset).why == "because"
     assert choose_options(dataset, {"source": "landmarks"}) == choices.Choice({})
+
+
+@pytest.mark.parametrize(
+    ("command", "fit"),
+    [
+        (("train", "speech", *QUICK), "WordRecognizer"),
+        (("train-connected", "--front-end", "cepstra"), "ConnectedWordRecognizer"),
+        (("train-units",), "SubwordRecognizer"),
+    ],
+    ids=lambda value: value[0] if isinstance(value, tuple) else "",
+)
+def test_recordings_without_speech_are_named(
+    hri: Any, spoken: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: tuple[str, ...], fit: str
+) -> None:
+    """Training leaves them out without a word."""
+    monkeypatch.setattr(f"hri.recognition.{fit}.fit", lambda *_, **__: 1 / 0)
+    folder = tmp_path / "spoken"
+    shutil.copytree(spoken, folder)
+    given = (*command, "--data", folder, "--out", tmp_path / "m.hri")
+    assert "no speech" not in hri(*given).err
+    silence = 0.0001 * np.random.default_rng(0).normal(size=RATE_HZ).astype(np.float32)
+    for number in range(12):
+        write_wav_pcm16(str(folder / f"1_low_{10 + number}.wav"), silence, RATE_HZ // (1 + number % 2))
+        if number == 0:
+            one = f"WARNING: no speech is found in 1 recording, which is not learned from: {folder}/1_low_10.wav\n"
+            assert one in hri(*given).err
+    warned = next(line for line in hri(*given).err.splitlines() if "no speech" in line)
+    assert "in 12 recordings, which are not learned from" in warned and warned.endswith("1_low_19.wav and 2 more")
+    cut = hri(*given, "--option", f"{'' if command[0] == 'train' else 'words.'}activity.silence_dbfs=0")
+    assert "no speech is found in 30 recordings" in cut.err, "as training finds it"

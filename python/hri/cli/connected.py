@@ -26,6 +26,7 @@ from hri.cli.recognizers import (
     pattern_option,
     refuse_chosen,
 )
+from hri.cli.train_checks import warn_of_silence
 from hri.core.errors import InvalidArgument
 from hri.io import SpokenWords
 from hri.language import NGramModel
@@ -140,6 +141,7 @@ def train_connected(
     path.parent.mkdir(parents=True, exist_ok=True)
     spoken = SpokenWords(voice, spellings, num_voices, seed) if spellings else None  # refuses what is wrong now
     clips = [read_audio(sample.path) for sample in dataset.samples]
+    warn_of_silence(clips, recognizer.options.words)
     labels = [sample.label for sample in dataset.samples]
     persons = [sample.person for sample in dataset.samples]
     with progress_bars() as progress:

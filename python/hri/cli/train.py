@@ -34,8 +34,9 @@ from hri.cli.recognizers import (
     pattern_option,
     recognizer_factory,
 )
-from hri.cli.train_checks import check_recordings
+from hri.cli.train_checks import check_recordings, warn_of_silence
 from hri.datasets import Dataset
+from hri.media import read_audio
 from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer
 from hri.training import fillers_of
 from hri.training import train as train_recognizer
@@ -135,6 +136,13 @@ def train(
         untrained.faces = faces
         require_faces(faces)
     with progress_bars() as progress:
+        if isinstance(untrained, WordRecognizer):
+            clips = []
+            for sample in dataset:
+                clips.append(read_audio(sample.path))
+                progress("looking for speech", len(clips), len(dataset))
+            warn_of_silence(clips, untrained.options)
+            del clips
         recognizer = train_recognizer(
             dataset, untrained, fillers=others, embedding=embedding, noises=noises, progress=progress
         )

@@ -21,6 +21,7 @@ from hri.cli.recognizers import (
     parse_options,
     pattern_option,
 )
+from hri.cli.train_checks import warn_of_silence
 from hri.core.errors import InvalidArgument
 from hri.core.files import read_text
 from hri.htk import Dictionary
@@ -94,6 +95,7 @@ def train_units(
     path = default_model(MODE) if out is None else Path(out)
     path.parent.mkdir(parents=True, exist_ok=True)
     clips = [read_audio(sample.path) for sample in dataset.samples]
+    warn_of_silence(clips, recognizer.options.words)
     with progress_bars() as progress:
         recognizer.fit(
             clips,
