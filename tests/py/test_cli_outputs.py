@@ -70,9 +70,19 @@ def test_a_motion_is_not_written_over_itself_and_a_log_is_no_motion(hri, tmp_pat
 def test_a_model_may_be_written_anew(hri, model: Path, said: Path) -> None:
     kept = said.parent / "kept.hri"
     kept.write_bytes(model.read_bytes())
-    done = hri("adapt", "--model", kept, "-o", kept, "--label", "flat", said)
-    assert done.code == 0 and "learned from 1 of 1 recordings" in done.err
+    done = hri("add-word", "--model", kept, "-o", kept, "--label", "new", said)
+    assert done.code == 0 and " labels: " in done.err
     assert kept.read_bytes() != model.read_bytes()
+
+
+def test_a_model_that_is_adapted_stays(hri, model: Path, said: Path) -> None:
+    kept = said.parent / "data" / "hri" / "speech.hri"  # which is the default, too
+    kept.parent.mkdir(parents=True)
+    kept.write_bytes(model.read_bytes())
+    for given in (("--model", kept), ()):
+        done = hri("adapt", *given, "-o", kept, "--label", "flat", said)
+        assert done.code == 2 and f"{kept} is" in done.err
+    assert kept.read_bytes() == model.read_bytes()
 
 
 def test_a_text_that_no_file_could_have_as_its_name_is_none(hri, model: Path, said: Path) -> None:

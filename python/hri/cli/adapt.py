@@ -25,7 +25,7 @@ _file = click.Path(exists=True, dir_okay=False)
 @click.argument("files", type=_file, nargs=-1, metavar="[FILE]...")
 @click.option("--model", type=_file, help="A model from 'hri train speech'; the default is the one kept per user.")
 @embedding_option
-@click.option("-o", "--out", required=True, type=OutputFile(replaces=("model",)), help="File of the adapted model.")
+@click.option("-o", "--out", required=True, type=OutputFile(), help="File of the adapted model.")
 @click.option(
     "--label",
     help="The word in every FILE (supervised); without it, it is unsupervised, by what FILES are recognised as.",
@@ -63,11 +63,14 @@ def adapt(
         raise click.UsageError("--label is for FILES; in a folder every recording has its own")
     if not files and data is None:
         raise click.UsageError("give recordings, or --data DIR")
+    source = kept_model("speech") if model is None else Path(model)
+    if Path(out).exists() and source.samefile(out):
+        raise click.UsageError(f"--out: {out} is the model that is adapted, which stays as it is: name another file")
     words = [(Path(file), label) for file in files]
     if data is not None:
         dataset = load_dataset(data, "speech", pattern).select(persons=None if person is None else [person])
         words += [(sample.path, sample.label) for sample in dataset]
-    recognizer = WordRecognizer.load(model or kept_model("speech"), embedding=load_embedding(embedding_path))
+    recognizer = WordRecognizer.load(source, embedding=load_embedding(embedding_path))
     adapter = SpeakerAdapter(recognizer)
     with progress_bars() as progress:
         heard = []
