@@ -59,6 +59,27 @@ def test_places_that_cannot_be_written_are_refused_before_the_work(
     assert result.err.startswith(f"hri: error: Invalid value for '{option}'") and result.err.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    "arguments", ["train speech", "train gesture", "train-connected", "train-units", "train-sentences"]
+)
+def test_the_place_where_models_are_kept_is_looked_at_before_the_work(
+    hri, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, arguments: str
+):
+    monkeypatch.setattr("hri.datasets.Dataset.load", lambda *_: pytest.fail("the recordings were read"))
+    (tmp_path / "data").touch()  # in place of the user's folder of data
+    result = hri(*arguments.split(), "--data", tmp_path)
+    assert (result.code, result.out) == (2, "")
+    assert f"cannot be written: '{tmp_path / 'data'}' is not a folder where you may write" in result.err
+    assert "name a file with --out" in result.err
+
+
+def test_a_model_that_cannot_be_replaced_is_not_read(hri, monkeypatch: pytest.MonkeyPatch, word_model: Path):
+    monkeypatch.setattr("os.access", lambda _, mode: mode != os.W_OK)  # as of a folder of another user
+    for command in (("add-word", word_model), ("remove-word",), ("add-gesture", word_model)):
+        result = hri(*command, "--model", word_model, "--label", "1")
+        assert result.code == 2 and f"'{word_model}' cannot be replaced" in result.err, result.err
+
+
 def test_usage_errors_are_one_line_that_names_the_help(hri):
     for arguments, place in (("train", "hri train"), ("robot nonsense", "hri robot"), ("nonsense", "hri")):
         result = hri(*arguments.split())

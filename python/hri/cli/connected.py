@@ -20,6 +20,7 @@ from hri.cli.recognizers import (
     default_model,
     embedding_option,
     load_dataset,
+    model_to_write,
     naming_options,
     options_option,
     parse_options,
@@ -134,10 +135,10 @@ def train_connected(
     with naming_options():
         recognizer = ConnectedWordRecognizer(**fields)
     embedding = connected_embedding(recognizer, embedding_path)
+    path = model_to_write(MODE, out)
     dataset = load_dataset(data, "speech", pattern)
     spellings = _spellings(added, dataset.labels)
     model = None if language is None else load_language(language, [*dataset.labels, *spellings])
-    path = default_model(MODE) if out is None else Path(out)
     path.parent.mkdir(parents=True, exist_ok=True)
     spoken = SpokenWords(voice, spellings, num_voices, seed) if spellings else None  # refuses what is wrong now
     clips = [read_audio(sample.path) for sample in dataset.samples]

@@ -61,14 +61,22 @@ class OutputFile(click.Path):
             self.fail(f"'{path}' cannot be written: it is a stream; name a file{instead}", param, ctx)
         if self._suffixes and path.suffix.lower() not in self._suffixes:
             self.fail(f"'{path}' must end in one of {' '.join(self._suffixes)}", param, ctx)
-        folder = path.absolute().parent
-        while not folder.exists():
-            folder = folder.parent
-        if not folder.is_dir() or not os.access(folder, os.W_OK):
-            self.fail(f"'{path}' cannot be written: '{folder}' is not a folder where you may write", param, ctx)
-        if path.exists() and not path.is_file():
-            self.fail(f"'{path}' cannot be written: it is not a regular file", param, ctx)
+        fault = why_not_writable(path)
+        if fault is not None:
+            self.fail(f"'{path}' cannot be written: {fault}", param, ctx)
         return self._kind(text)
+
+
+def why_not_writable(path: Path) -> str | None:
+    """What is wrong with the place of a file to write; None where nothing is. Folders that are missing can be made."""
+    folder = path.absolute().parent
+    while not folder.exists():
+        folder = folder.parent
+    if not folder.is_dir() or not os.access(folder, os.W_OK):
+        return f"'{folder}' is not a folder where you may write"
+    if path.exists() and not path.is_file():
+        return "it is not a regular file"
+    return None
 
 
 def _stream_named(path: Path) -> str | None:

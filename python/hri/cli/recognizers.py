@@ -12,6 +12,7 @@ from typing import Any
 import click
 
 from hri.cli.messages import note
+from hri.cli.output import why_not_writable
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import parse_toml
 from hri.datasets import Dataset
@@ -96,6 +97,23 @@ def default_model(mode: str) -> Path:
     from platformdirs import user_data_path
 
     return user_data_path("hri") / f"{mode}.hri"
+
+
+def model_to_write(mode: str, out: str | None) -> Path:
+    """The file that a command which trains writes: `out`, or the one kept per user.
+
+    Raises
+    ------
+    click.UsageError
+        Where that cannot be written, as is said of `out` when it is parsed: before the work begins.
+    """
+    if out is not None:
+        return Path(out)
+    path = default_model(mode)
+    fault = why_not_writable(path)
+    if fault is not None:
+        raise click.UsageError(f"'{path}', where models are kept, cannot be written: {fault}; name a file with --out")
+    return path
 
 
 def kept_model(mode: str) -> Path:

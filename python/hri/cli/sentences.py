@@ -17,6 +17,7 @@ from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import (
     default_model,
+    model_to_write,
     naming_options,
     options_option,
     parse_options,
@@ -63,8 +64,8 @@ def train_sentences(data: str, out: str | None, options: tuple[str, ...], seed: 
     refuse_chosen(fields, "choose_weights")
     with naming_options():
         recognizer = SentenceRecognizer(**fields)
+    path = model_to_write(MODE, out)
     sentences = read_asl_sentences(Path(data))
-    path = default_model(MODE) if out is None else Path(out)
     path.parent.mkdir(parents=True, exist_ok=True)
     with progress_bars() as progress:
         fit_sentences(recognizer, sentences, lambda done, total: progress("training", done, total))

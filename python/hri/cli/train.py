@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import click
 
 from hri.cli.choices import (
@@ -25,11 +23,11 @@ from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import (
-    default_model,
     embedding_for,
     embedding_option,
     load_dataset,
     mode_argument,
+    model_to_write,
     options_option,
     pattern_option,
     recognizer_factory,
@@ -122,8 +120,8 @@ def train(
         hands=hands,
         faces=faces,
     )
+    path = model_to_write(mode, out)
     dataset = load_dataset(data, mode, pattern)
-    path = default_model(mode) if out is None else Path(out)
     check_recordings(dataset, path if out is None else None)
     options, why_source = chosen_options(options, dataset)
     untrained = recognizer_factory(mode, options, seed)()

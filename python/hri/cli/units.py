@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import click
 
@@ -14,8 +13,8 @@ from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import (
-    default_model,
     load_dataset,
+    model_to_write,
     naming_options,
     options_option,
     parse_options,
@@ -87,12 +86,12 @@ def train_units(
         recognizer = SubwordRecognizer(**fields)
     written = dict(_split(spelling) for spelling in spellings)
     lexicon = None if dictionary is None else _read_dictionary(dictionary)
+    path = model_to_write(MODE, out)
     dataset = load_dataset(data, "speech", pattern)
     by_rule = [] if dictionary is None or lexicon is None else _not_in(lexicon, dictionary, dataset.labels)
     for label in written:
         if label not in dataset.labels:
             raise InvalidArgument(f"--spelling {label}: no recording has this label")
-    path = default_model(MODE) if out is None else Path(out)
     path.parent.mkdir(parents=True, exist_ok=True)
     clips = [read_audio(sample.path) for sample in dataset.samples]
     warn_of_silence(clips, recognizer.options.words)

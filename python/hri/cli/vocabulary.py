@@ -11,7 +11,7 @@ import click
 
 from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.messages import note
-from hri.cli.output import OutputFile, json_option, say, write_json
+from hri.cli.output import OutputFile, json_option, say, why_not_writable, write_json
 from hri.cli.recognizers import embedding_option, kept_model, load_embedding
 from hri.core.errors import InvalidArgument
 from hri.media import read_audio
@@ -140,6 +140,7 @@ def add_gesture(
       hri add-gesture --model signs.hri --label eight eight*.jpg -o more.hri
     """
     source = kept_model("gesture") if model_path is None else Path(model_path)
+    target = _target(source, out)
     signs = load(source, "gesture")
     if label in signs.classes_:  # which is said before clips are read
         raise InvalidArgument(f"label '{label}' is in the vocabulary already")
@@ -148,14 +149,25 @@ def add_gesture(
         if len(found) == 0:
             raise InvalidArgument(f"{clip}: no picture shows a hand")
     signs.add_gesture_features(label, rows)
-    _keep(signs, source if out is None else Path(out), json_path)
+    _keep(signs, target, json_path)
 
 
 def _open(
     model_path: str | None, embedding_path: str | None, out: str | None
 ) -> tuple[WordRecognizer | SubwordRecognizer, Path]:
     source = kept_model("speech") if model_path is None else Path(model_path)
-    return load(source, "speech", embedding=load_embedding(embedding_path)), source if out is None else Path(out)
+    target = _target(source, out)
+    return load(source, "speech", embedding=load_embedding(embedding_path)), target
+
+
+def _target(source: Path, out: str | None) -> Path:
+    """Where the new model goes; click.UsageError where the old one, which it replaces, cannot be."""
+    if out is not None:
+        return Path(out)
+    fault = why_not_writable(source)
+    if fault is not None:
+        raise click.UsageError(f"'{source}' cannot be replaced: {fault}; name a file with --out")
+    return source
 
 
 def _keep(
