@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`python -m hri` is the command line `hri`."""
 
-from hri.cli.main import run
+from hri.cli.entry import run
 
 if __name__ == "__main__":
     run()

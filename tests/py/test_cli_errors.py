@@ -161,6 +161,28 @@ def test_output_to_a_program_that_ends_early_ends_silently(change: signal.Sigmas
     assert process.returncode == -signal.SIGPIPE
 
 
+@pytest.mark.parametrize("is_ignored", [False, True])
+@pytest.mark.parametrize("module", ["click", "hri.cli.groups", "hri.cli.robot", "hri.robot"])
+def test_an_interrupt_while_modules_are_loaded_is_one_too(module: str, is_ignored: bool):
+    """Sent just before this module is looked for: by the entry point, by the command line, or by a command."""
+    code = f"""
+import os, signal, sys
+class Interrupting:
+    def find_spec(self, name, path=None, target=None):
+        if name == {module!r}:
+            os.kill(os.getpid(), signal.SIGINT)
+sys.meta_path.insert(0, Interrupting())
+sys.argv[1:] = ["robot", "joints"]
+if {is_ignored}:  # as of what a shell runs in the background
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+from hri.cli.entry import run
+run()
+"""
+    result = run_python(code)
+    expected = (0, "") if is_ignored else (130, "\nhri: interrupted\n")
+    assert (result.returncode, result.stderr) == expected and bool(result.stdout) is is_ignored
+
+
 @pytest.mark.parametrize(("passed", "code"), [(True, 0), (False, 1)])
 def test_a_study_that_misses_its_target_ends_with_1(
     hri, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, passed: bool, code: int

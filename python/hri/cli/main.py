@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Entry point: the commands, loaded when called, and errors as one line with an exit code."""
+"""The commands, loaded when called, and errors as one line with an exit code; `hri.cli.entry` is the entry point."""
 
 from __future__ import annotations
 
@@ -164,7 +164,7 @@ def _fail(message: str, exit_code: int) -> int:
 
 
 def run() -> None:
-    """The console script."""
+    """Do what the arguments of this process say, and end it."""
     if hasattr(signal, "SIGPIPE"):
         # Standard output may go to a program that ends early, such as head: then end as other tools do, silently.
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)
