@@ -5,6 +5,8 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
 import sys
 import threading
 import time
@@ -136,6 +138,17 @@ def test_every_event_is_one_line_of_json(words: hri.WordRecognizer, session: Any
         if row["event"] == "decision":
             assert {"final", "incremental", "confidence", "locale", "nbest", "rejected", "model"} <= set(row)
             assert row["final"] == ("" if row["rejected"] else row["nbest"][0]["label"])
+
+
+def test_lines_of_json_are_utf8_whatever_a_file_is_called(word_model: Path, tmp_path: Path) -> None:
+    """As of a name that another system wrote; text of a terminal shows the byte as it is."""
+    place = tmp_path / os.fsdecode(b"s\xffven.wav")
+    _native.write_wav_pcm16(str(tmp_path / "seven.wav"), tone_word(180.0, 800.0, 1), RATE_HZ)
+    (tmp_path / "seven.wav").rename(place)
+    command = (sys.executable, "-m", "hri", "listen", "--model", word_model, place)
+    done = subprocess.run(command, capture_output=True, check=True)
+    sources = [row["source"] for row in map(json.loads, done.stdout.decode().splitlines()) if "source" in row]
+    assert sources == [place.name]
 
 
 def test_silence_and_noise_give_no_decision(words: hri.WordRecognizer) -> None:

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from collections.abc import Iterable
 from dataclasses import asdict
 from functools import partial
@@ -29,6 +28,7 @@ from hri.cli.recognizers import embedding_option, kept_model, load_embedding
 from hri.core.errors import InvalidArgument
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.live import Attention, AudioSource, Event, Listener, list_microphones
+from hri.live.events import json_line
 from hri.recognition import WordRecognizer
 
 
@@ -129,7 +129,7 @@ def _list_devices(as_json: bool) -> None:
     microphones = list_microphones()
     for one in microphones:
         if as_json:
-            click.echo(json.dumps(asdict(one), ensure_ascii=False))
+            click.echo(json_line(asdict(one)))
         else:
             mark = "*" if one.is_default else " "
             click.echo(f"{mark} {one.index}\t{one.name}\t{one.sample_rate_hz} Hz")

@@ -73,7 +73,12 @@ class Event:
 
     def to_json(self) -> str:
         """As one line of JSON."""
-        return json.dumps(self.to_dict(), ensure_ascii=False)
+        return json_line(self.to_dict())
+
+
+def json_line(value: Any) -> str:
+    """A value as one line of JSON that is Unicode: a byte of a file's name that is not UTF-8 becomes an escape."""
+    return json.dumps(value, ensure_ascii=False).encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 def decision_fields(decision: Decision, locale: str, model: str) -> dict[str, Any]:

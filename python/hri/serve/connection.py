@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import asyncio
-import json
 import logging
 import math
 import time
@@ -18,7 +17,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from hri.core.errors import FormatError
 from hri.core.phrases import Phrase, phrase, phrase_of
-from hri.live.events import STALL
+from hri.live.events import STALL, json_line
 from hri.serve.limits import RateLimit
 from hri.serve.messages import SOUND, read_command, read_media, with_phrases
 from hri.serve.stage import Stage
@@ -274,7 +273,7 @@ class Connection:
 
     async def _send(self) -> None:
         while True:
-            await self._socket.send_text(json.dumps(with_phrases(await self.outbox.get()), ensure_ascii=False))
+            await self._socket.send_text(json_line(with_phrases(await self.outbox.get())))
 
     async def _draw(self) -> None:
         """Where the robot is, as often as that changes."""

@@ -30,6 +30,7 @@ from hri.core.ros2_messages import (
     message_type,
 )
 from hri.live import Event
+from hri.live.events import json_line
 from hri.media import encode_png
 from hri.robot import Trajectory, joint_trajectory_message
 from hri.session.event_schema import EVENT, TIMING, event_schema, timing_schema
@@ -234,7 +235,7 @@ def _ros2_schema(name: str) -> tuple[str, str, str, bytes]:
 
 
 def _json_of(message: Mapping[str, Any]) -> bytes:
-    return json.dumps(message, ensure_ascii=False).encode("utf-8", "backslashreplace")
+    return json_line(message).encode("utf-8")
 
 
 def _sound_info(rate_hz: int, form: str, sample_bytes: int) -> dict[str, Any]:
