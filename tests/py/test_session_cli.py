@@ -161,7 +161,7 @@ def test_what_is_missing_is_said_in_a_line(hri, scene: Path, tmp_path: Path) -> 
         ((*models(scene), "--min-confidence", "0.5", said), 2, "--min-confidence goes with --grammar"),
         ((*models(scene), "--max-distance", "0.5", said), 2, "--max-distance goes with --knowledge"),
         ((*models(scene), "--language", "hi", said), 2, "--language goes with --knowledge"),
-        ((*words, "--imitate", "nowhere", said), 3, "'nowhere' is in no vocabulary"),
+        ((*words, "--imitate", "1", said), 2, "--imitate has no effect without a robot"),
         (("--robot", "nao", "--url", "tcp://127.0.0.1:9"), 2, "--url is of a real one"),
     ):
         result = hri("session", "--backend", "none", *arguments)

@@ -315,7 +315,7 @@ def session_options(command: Callable[..., None]) -> Callable[..., None]:
         if given["fusion_path"] is not None:
             refuse_given(("rule",), "has no effect: --fusion takes its place")
         if given["backend"] == _NO_ROBOT and given.get("url") is None:
-            robots = ("motions_path", "stand", "gui", "table")
+            robots = ("motions_path", "stand", "gui", "table", "imitate")
             refuse_given(robots, "has no effect without a robot, as --backend none has it")
         command(chosen=ChosenSession(**{name: given.pop(name) for name in names}), **given)
 
@@ -331,6 +331,7 @@ def refuse_unused(with_speech: bool, with_gesture: bool) -> None:
         refuse_given(names, "is of words, and nothing is heard")
     if not with_gesture:
         refuse_given(("gesture_model", "faces", "camera_name"), "is of signs, and nothing is seen")
+        refuse_given(("imitate",), "is of the arms of a person who is seen, and nothing is seen")
 
 
 def _name_and_hash(path: Path) -> str:
