@@ -249,6 +249,21 @@ def test_devices_that_are_missing_end_the_session_in_words(hri, scene: Path, mon
     assert [row["event"] for row in rows(done.out)] == ["stall"]
 
 
+@pytest.mark.parametrize(
+    ("command", "option"),
+    [(("session", "--no-speech", "--backend", "none"), "--camera"), (("watch", "--stall", "1"), "--device")],
+    ids=lambda value: value[0] if isinstance(value, tuple) else "",
+)
+def test_a_camera_that_is_missing_is_named_by_the_option_of_the_command(
+    hri, scene: Path, command: tuple[str, ...], option: str
+) -> None:
+    model = "--gesture-model" if command[0] == "session" else "--model"
+    done = hri(*command, model, scene / "signs.hri", option, "77")
+    assert done.code == 3 and f"or give a video instead; {option} names another" in done.err
+    other = "--device" if option == "--camera" else "--camera"
+    assert other not in done.err
+
+
 def test_the_screen_shows_decisions_and_why(monkeypatch: pytest.MonkeyPatch) -> None:
     events = [
         Event(0.0, "listening", {"source": "microphone", "sample_rate_hz": 16000}),

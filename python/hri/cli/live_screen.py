@@ -12,6 +12,7 @@ import click
 
 from hri.cli.answers import alternatives
 from hri.cli.messages import note
+from hri.core.errors import IoError
 from hri.live import CameraSource, Event, FileSource, MicrophoneSource
 from hri.live.visibility import missing_text
 
@@ -34,9 +35,12 @@ def microphone(device: str | None, stall_s: float, buffer_s: float = 5.0) -> Mic
     return MicrophoneSource(chosen, stall_s=stall_s, buffer_s=buffer_s)
 
 
-def camera(device: str, stall_s: float) -> CameraSource:
-    """The camera of that number or address."""
-    return CameraSource(int(device) if device.isdigit() else device, stall_s=stall_s)
+def camera(device: str, stall_s: float, option: str = "--device") -> CameraSource:
+    """The camera of that number or address; an IoError says which option names another."""
+    try:
+        return CameraSource(int(device) if device.isdigit() else device, stall_s=stall_s)
+    except IoError as error:
+        raise IoError(f"{error}; {option} names another") from error
 
 
 def recording(path: str | PathLike[str], paced: bool = False) -> FileSource:

@@ -32,7 +32,9 @@ def require_nao(chosen: ChosenSession, url: str | None, camera_name: str | None,
 
 def open_camera(name: str, stall_s: float, url: str | None) -> CameraSource | NaoCamera:
     """A camera of this computer, or NAO's."""
-    return NaoCamera(url, stall_s=stall_s) if url is not None and name == NAO_NAME else camera(name, stall_s)
+    if url is not None and name == NAO_NAME:
+        return NaoCamera(url, stall_s=stall_s)
+    return camera(name, stall_s, "--camera")
 
 
 def open_microphone(name: str | None, stall_s: float, url: str | None) -> MicrophoneSource | NaoMicrophone:

@@ -18,8 +18,8 @@ from hri.core.optional import import_opencv
 from hri.live.frames import Frame, TimedFrame
 from hri.live.sources import Stalled, require_positive
 
-_HELP = "connect a camera, name another with --device, or give a video instead"
-_IN_USE = "it is there, but does not open; another program may use it: close that, or name another camera with --device"
+_HELP = "connect a camera, or give a video instead"
+_IN_USE = "it is there, but does not open; another program may use it: close that"
 _log = logging.getLogger(__name__)
 _RETRY_S = 0.02
 _CLOSE_S = 2.0
