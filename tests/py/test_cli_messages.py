@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import logging
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -15,10 +16,12 @@ import click
 import pytest
 
 from conftest import QUICK
+from hri.cli.in_commands import of_models
 from hri.cli.main import hri as root
 from hri.core.suggest import did_you_mean, nearest
 from hri.datasets import Dataset
 from hri.recognition import WordRecognizer
+from hri.recognition.loading import _KINDS
 
 
 @pytest.mark.parametrize(
@@ -38,6 +41,56 @@ def test_what_was_meant_is_suggested(hri, arguments: str, code: int, message: st
     result = hri(*arguments.split())
     assert (result.code, result.out) == (code, "")
     assert message in result.err and result.err.count("\n") == 1
+
+
+def test_of_a_folder_that_may_be_two_things_what_to_type_is_said(hri, tmp_path: Path):
+    """The most natural layout of few recordings."""
+    for name in ("go/a.wav", "go/b.wav", "stop/a.wav", "stop/b.wav"):
+        (tmp_path / "data" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "data" / name).touch()
+    result = hri("train", "speech", "--data", tmp_path / "data")
+    assert result.code == 3
+    assert "say which, by --pattern '{label}/{take}' or --pattern '{person}/{label}'\n" in result.err
+    folders = ("--speech-data", tmp_path / "data", "--gesture-data", tmp_path)
+    result = hri("train-fusion", *folders, "--out", tmp_path / "fusion.hri")
+    assert result.code == 3 and "by --speech-pattern '{label}/{take}' or --speech-pattern" in result.err
+    (tmp_path / "data" / "x_y.wav").touch()
+    result = hri("train-units", "--data", tmp_path / "data")
+    assert "write a dataset.toml, or say --pattern '...'. Tried:" in result.err
+
+
+def test_a_folder_without_an_option_is_described_in_its_manifest(hri, spoken: Path, tmp_path: Path):
+    for name in ("go/a.wav", "stop/a.wav"):
+        (tmp_path / "others" / name).parent.mkdir(parents=True)
+        (tmp_path / "others" / name).touch()
+    result = hri("train", "speech", "--data", spoken, "--fillers", tmp_path / "others")
+    assert result.code == 3 and "by pattern = '{label}/{take}' in its dataset.toml or pattern = " in result.err
+
+
+@pytest.mark.parametrize(
+    ("command", "model", "commands"),
+    [
+        (("listen", "--model"), "sign_model", "'hri watch' and 'hri add-gesture' (--model), 'hri recognise'"),
+        (("watch", "--model"), "word_model", "'hri listen' and 'hri adapt' (--model), 'hri recognise'"),
+        (("transcribe", "--model"), "word_model", "'hri listen' and 'hri adapt' (--model), 'hri recognise'"),
+    ],
+    ids=lambda value: value[0] if isinstance(value, tuple) else "",
+)
+def test_a_model_of_another_kind_is_said_to_be_of_these_commands(
+    hri, spoken: Path, request: pytest.FixtureRequest, command: tuple[str, ...], model: str, commands: str
+):
+    result = hri(*command, request.getfixturevalue(model), spoken / "1_low_0.wav")
+    assert result.code == 3 and f"is needed here; {commands}" in result.err and ".load" not in result.err
+
+
+def test_every_kind_of_model_has_its_commands(hri, spoken: Path):
+    for name, taken_by in _KINDS.values():
+        assert ".load" in taken_by and ".load" not in of_models(f"m.hri is a {name}; {taken_by}")
+        said = of_models(f"a.wav is a sound file, and a {name} is needed here: train makes one, save writes it")
+        maker = re.fullmatch(r".* is needed here: 'hri (\S+).*' makes one", said)
+        assert maker is not None and root.get_command(click.Context(root), maker[1]) is not None
+    result = hri("info", spoken / "1_low_0.wav")
+    assert result.code == 3 and "is needed here: 'hri train' makes one\n" in result.err
 
 
 def test_names_that_are_like_none_are_listed():

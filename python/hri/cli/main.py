@@ -17,6 +17,7 @@ except ImportError:  # the base install has no command line
 
 from hri import __version__, set_num_threads
 from hri.cli.groups import SuggestingGroup
+from hri.cli.in_commands import of_models
 from hri.cli.messages import set_verbosity
 from hri.cli.output import print_any_name
 from hri.core.errors import Error
@@ -149,7 +150,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except click.ClickException as error:
         return _fail(error.format_message(), EXIT_BAD_DATA)
     except (Error, ImportError) as error:
-        return _fail(str(error), EXIT_BAD_DATA)
+        return _fail(of_models(str(error)), EXIT_BAD_DATA)
     except OSError as error:
         return _fail(f"{error.filename}: {error.strerror}" if error.filename else str(error), EXIT_BAD_DATA)
     except Exception as error:

@@ -10,6 +10,8 @@ from collections.abc import Iterable
 
 import click
 
+from hri.cli.in_commands import of_models
+
 _COMMANDS = logging.getLogger("hri.cli")
 _LIBRARY = logging.getLogger("hri")
 
@@ -39,7 +41,7 @@ def listed(labels: Iterable[str]) -> str:
 
 def report_fault(error: Exception | str) -> None:
     """What is wrong with one of several items, on standard error even with ``hri --quiet``; the others go on."""
-    _COMMANDS.error("hri: error: %s", " ".join(str(error).split()))
+    _COMMANDS.error("hri: error: %s", " ".join(of_models(str(error)).split()))
 
 
 def set_verbosity(verbosity: int) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 
 import click
 
+from hri.cli.in_commands import of_patterns
 from hri.cli.messages import note
 from hri.cli.output import why_not_writable
 from hri.core.errors import FormatError, InvalidArgument
@@ -158,12 +159,24 @@ def warn_of_stored(stored: KnowledgeBase, recognizers: Iterable[Any], path: str 
         note(f"WARNING: {path}: words that no recogniser knows: {', '.join(named[:_MOST_NAMED])}{more}")
 
 
-def load_dataset(directory: str, mode: str, pattern: str | None) -> Dataset:
-    """`Dataset.load`; recordings that do not fit the pattern are reported on standard error."""
-    dataset = Dataset.load(directory, mode, pattern)
+def load_dataset(directory: str, mode: str, pattern: str | None, option: str | None = "--pattern") -> Dataset:
+    """`Dataset.load`; recordings that do not fit the pattern are reported on standard error.
+
+    Parameters
+    ----------
+    directory, mode, pattern
+        As of `Dataset.load`.
+    option : str or None
+        By which the pattern is given; None: the command has none.
+    """
+    try:
+        dataset = Dataset.load(directory, mode, pattern)
+    except FormatError as error:
+        raise FormatError(of_patterns(str(error), option)) from error
     if dataset.ignored:
         example = dataset.ignored[0].relative_to(dataset.root)
-        note(f"{len(dataset.ignored)} recordings do not fit the pattern, such as {example}")
+        do = "recording does" if len(dataset.ignored) == 1 else "recordings do"
+        note(f"{len(dataset.ignored)} {do} not fit the pattern, such as {example}")
     return dataset
 
 

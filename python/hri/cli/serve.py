@@ -116,7 +116,7 @@ def serve(
     motions = chosen.load_motions()
     recordings, spoken = None, None
     if speech_data:
-        recordings = [sample for folder in speech_data for sample in load_dataset(folder, "speech", None).samples]
+        recordings = [sample for folder in speech_data for sample in load_dataset(folder, "speech", None, None)]
         spoken = SpokenWords.read_beside(chosen.speech_model or connected_model())
     with ExitStack() as stack:
         stack.enter_context(broken_pipes_as_errors())

@@ -128,7 +128,7 @@ def train(
     embedding = embedding_for(untrained, embedding_path)
     others: list[FillerWord] | None = [] if no_fillers else None
     if fillers is not None:
-        others = fillers_of(load_dataset(fillers, mode, None))
+        others = fillers_of(load_dataset(fillers, mode, None, None))
     path.parent.mkdir(parents=True, exist_ok=True)
     if isinstance(untrained, GestureRecognizer):
         untrained.faces = faces

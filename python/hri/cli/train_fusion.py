@@ -113,8 +113,8 @@ def train_fusion(
     for mode, asked in options.items():
         recognizer_factory(mode, asked, seed)  # what is wrong with them is said before recordings are looked for
     data = {
-        "speech": load_dataset(speech_data, "speech", speech_pattern),
-        "gesture": load_dataset(gesture_data, "gesture", gesture_pattern),
+        "speech": load_dataset(speech_data, "speech", speech_pattern, "--speech-pattern"),
+        "gesture": load_dataset(gesture_data, "gesture", gesture_pattern, "--gesture-pattern"),
     }
     for mode, dataset in data.items():
         if len(dataset.persons) < 2:
