@@ -279,3 +279,36 @@ def test_labels_are_found_by_all_patterns_in_turn(hri, sounds: Path):
         Path("labels.mlf").write_text(f"#!MLF!#\n{entry.format(chr(34) + pattern + chr(34), 2_000_000)}")
         assert seconds("-I", "labels.mlf", "one.wav") == 0.2
         assert seconds("-I", "labels.mlf", "./one.wav") == 0.2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "message"),
+    [
+        (("list",), 2, "no files: name those to print"),
+        (("list", "-s", "20", "u0.usr"), 3, "u0.usr: has 20 frames, from 0 on, and none from 20 on"),
+        (("list", "-s", "5", "-e", "2", "u0.usr"), 2, "-e 2 lies before -s 5"),
+        (("list", "-z", "none.usr"), 3, "none.usr: cannot open"),
+        (("list", "-z", "-S", "bad.scp"), 3, "bad.scp: line 2: none.usr: there is no such file"),
+        (("quant", "-S", "bad.scp", "codebook"), 3, "bad.scp: line 2: none.usr: there is no such file"),
+        (("quant", "-S", "part.scp", "codebook"), 3, "part.scp: line 1: none.usr: there is no such file"),
+        (("quant", "-S", "said.mlf", "codebook"), 3, "said.mlf: is a master label file, which -I takes"),
+        (("copy", "-S", "bad.scp"), 3, "bad.scp: line 2: none.usr: there is no such file"),
+        (("copy", "-S", "odd.scp"), 2, "odd.scp: line 3: u1.usr has no target: files come in pairs"),
+        (("copy", "-S", "said.mlf"), 3, "said.mlf: is a master label file"),
+        (("results", "-I", "said.mlf", "-S", "bad.scp", "list"), 3, "bad.scp: line 2: none.usr: there is no such"),
+        (("build", "-S", "bad.scp", "list", "net"), 3, "bad.scp: line 2: none.usr: there is no such file"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, tuple) else "",
+)
+def test_what_is_wrong_with_files_and_frames_is_said(
+    hri, work: Path, arguments: tuple[str, ...], code: int, message: str
+):
+    Path("bad.scp").write_text("u0.usr a.usr\nnone.usr b.usr\n" if arguments[0] == "copy" else "u0.usr\nnone.usr\n")
+    Path("part.scp").write_text("seven=none.usr[0,3]\n")
+    Path("odd.scp").write_text("u0.usr a.usr\n\nu1.usr\n")
+    Path("said.mlf").write_text('#!MLF!#\n"*/a.lab"\nup\n.\n')
+    Path("list").write_text("up\n")
+    done = hri("htk", *arguments)
+    assert done.code == code and message in done.err, done.err
+    assert not Path("a.usr").exists()
+    assert len(succeed(hri("htk", "list", "-s", 18, "-e", 300, "u0.usr")).splitlines()) == 2

@@ -20,7 +20,12 @@ def read_script(path: str | PathLike[str]) -> list[str]:
     IoError, FormatError
         Of reading; also for a quotation that does not end (names the line).
     """
-    return [argument for row in _rows(path, escapes=False) for argument in row]
+    return [argument for row in script_rows(path) for argument in row]
+
+
+def script_rows(path: str | PathLike[str]) -> list[list[str]]:
+    """The arguments in every line of a script file; errors as of `read_script`."""
+    return _rows(path, escapes=False)
 
 
 def read_list(path: str | PathLike[str]) -> dict[str, str]:

@@ -50,7 +50,10 @@ def data_files(given: Sequence[str], scripts: Iterable[str], what: str) -> list[
     FormatError
         For parts that end before they begin.
     """
-    files = [_data_file(text) for text in all_arguments(given, scripts)]
+    files = []
+    for argument in all_arguments(given, scripts):
+        files.append(_data_file(argument))
+        argument.require_file(files[-1].path)
     if not files:
         raise click.UsageError(what)
     return files

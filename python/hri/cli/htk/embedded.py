@@ -14,7 +14,7 @@ from hri.cli.htk.data import DataFile, check_headers, data_files, load_frames
 from hri.cli.htk.options import (
     ModelFiles,
     References,
-    all_arguments,
+    files_to_read,
     folder_option,
     listed_models_options,
     load_configuration,
@@ -145,7 +145,7 @@ def erest(
     except InvalidArgument as error:
         raise FormatError(f"{' '.join(sources.paths)}: {error}") from error
     if part == 0:
-        sums = all_arguments(files, scripts)
+        sums = files_to_read(files, scripts)
         if not sums:
             raise click.UsageError(NOTHING)
         for path in sums:

@@ -10,7 +10,7 @@ from typing import Literal
 import click
 import numpy as np
 
-from hri.cli.htk.options import labelled_entries, load_configuration
+from hri.cli.htk.options import files_to_read, labelled_entries, load_configuration
 from hri.cli.htk.standard import INPUT, HtkCommand, refused_options, standard_options
 from hri.cli.output import OutputFile
 from hri.core.errors import FormatError, InvalidArgument
@@ -24,7 +24,6 @@ from hri.htk import (
     draw_sentence,
     network_statistics,
     read_list,
-    read_script,
     require_words,
 )
 from hri.htk.sentences import NULL
@@ -206,7 +205,7 @@ def _sentences(masters: tuple[str, ...], scripts: tuple[str, ...]) -> list[list[
     if not masters and not scripts:
         return None
     found = [one for path in masters for _, one in labelled_entries(MasterLabelFile.read(path), path)]
-    found += [Transcription.read(path) for script in scripts for path in read_script(script)]
+    found += [Transcription.read(path) for path in files_to_read((), scripts)]
     return [[label.name for label in one.labels] for one in found]
 
 

@@ -21,9 +21,11 @@ from hri.cli.htk.standard import (
 from hri.cli.messages import note
 from hri.core.errors import FormatError
 from hri.core.files import make_folder
-from hri.htk import Configuration, MasterLabelFile, ModelSet, Transcription, read_script
+from hri.htk import Configuration, MasterLabelFile, ModelSet, Transcription
+from hri.htk.lists import script_rows
 
 F = TypeVar("F", bound=Callable[..., Any])
+_MASTER = "#!MLF!#"
 models_option = click.option("-H", "macros", multiple=True, type=INPUT, metavar="MMF", help="A file of models.")
 labels_option = click.option("-I", "masters", multiple=True, type=INPUT, metavar="MLF", help="A master label file.")
 label_folder_option = click.option("-L", "label_folder", metavar="DIR", help="The folder of label files.")
@@ -230,9 +232,55 @@ class ModelFiles:
         return targets
 
 
-def all_arguments(given: Sequence[str], scripts: Iterable[str]) -> list[str]:
-    """The arguments of the command line, then those of the script files."""
-    return [*given, *(argument for script in scripts for argument in read_script(script))]
+class Argument(str):
+    """An argument, and where it stands: "" on the command line, else script and line.
+
+    Attributes
+    ----------
+    place : str
+    """
+
+    place: str = ""
+
+    @classmethod
+    def of_script(cls, text: str, script: str, line: int) -> Argument:
+        """One of a script."""
+        argument = cls(text)
+        argument.place = f"{script}: line {line}: "
+        return argument
+
+    def require_file(self, path: str | None = None) -> None:
+        """Raise FormatError where a script names a file, its own text or `path`, that is not there.
+
+        One of the command line is not looked at: who reads it names it.
+        """
+        if self.place and not Path(path or self).exists():
+            raise FormatError(f"{self.place}{path or self}: there is no such file")
+
+
+def all_arguments(given: Sequence[str], scripts: Iterable[str]) -> list[Argument]:
+    """The arguments of the command line, then those of the script files.
+
+    Raises
+    ------
+    FormatError
+        Also for a master label file in place of a script.
+    """
+    found = [Argument(text) for text in given]
+    for script in scripts:
+        for line, row in enumerate(script_rows(script), 1):
+            if line == 1 and row[:1] == [_MASTER]:
+                raise FormatError(f"{script}: is a master label file, which -I takes; -S takes a file of arguments")
+            found += [Argument.of_script(text, script, line) for text in row]
+    return found
+
+
+def files_to_read(given: Sequence[str], scripts: Iterable[str]) -> list[Argument]:
+    """`all_arguments` that are names of files to read; also raises FormatError where one in a script is not there."""
+    found = all_arguments(given, scripts)
+    for argument in found:
+        argument.require_file()
+    return found
 
 
 def labelled_entries(master: MasterLabelFile, path: str) -> list[tuple[str, Transcription]]:

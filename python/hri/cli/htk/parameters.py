@@ -11,8 +11,10 @@ import click
 
 from hri.cli.groups import FiniteRange
 from hri.cli.htk.options import (
+    Argument,
     References,
     all_arguments,
+    files_to_read,
     load_configuration,
     recording_options,
 )
@@ -25,6 +27,7 @@ from hri.cli.htk.standard import (
     standard_options,
 )
 from hri.cli.output import OutputFile
+from hri.core.display import count
 from hri.core.errors import FormatError
 from hri.core.files import make_folder
 from hri.htk import (
@@ -178,17 +181,22 @@ def copy(
         MasterLabelFile(entries).write(master)
 
 
-def _pairs(names: list[str]) -> list[tuple[list[str], str]]:
+def _pairs(names: list[Argument]) -> list[tuple[list[str], str]]:
     """Sources, which + joins, and the target of each."""
-    pairs = []
+    pairs: list[tuple[list[str], str]] = []
     at = 0
     while at < len(names):
-        sources = [names[at]]
+        sources: list[str] = [names[at]]
+        names[at].require_file()
         while at + 2 < len(names) and names[at + 1] == "+":
             at += 2
             sources.append(names[at])
+            names[at].require_file()
         if at + 1 >= len(names) or names[at + 1] == "+":
-            raise click.UsageError("files come in pairs of a source, or several with + between them, and a target")
+            raise click.UsageError(
+                f"{names[at].place}{names[at]} has no target: files come in pairs of a source, or several with + "
+                "between them, and a target"
+            )
         pairs.append((sources, names[at + 1]))
         at += 2
     if not pairs:
@@ -291,10 +299,18 @@ def list_files(
     is_coded = configuration.source_format == "WAV" or configuration.target != "ANON"
     if target and not is_coded:
         raise click.UsageError("-t shows what a configuration makes of a file: name one with TARGETKIND with -C")
-    for name in all_arguments(files, scripts):
+    if -1 < last < first:
+        raise click.UsageError(f"-e {last} lies before -s {first}")
+    names = files_to_read(files, scripts)
+    if not names:
+        raise click.UsageError("no files: name those to print, or with -S a file of their names")
+    for name in names:
         # A file as it is is shown piece by piece.
         file = code_sources([Source(name)], configuration) if is_coded else name
         shown = file if configuration.source_format == "WAV" else name
+        seen = header_of(file)
+        if first >= seen.num_frames > 0:
+            raise FormatError(f"{name}: has {count(seen.num_frames, 'frame')}, from 0 on, and none from {first} on")
         if header:
             for line in list_parameters(shown, name, header=True, values=False):
                 click.echo(line)
@@ -302,7 +318,6 @@ def list_files(
             for line in list_parameters(file, name, header=True, values=False, title="Target"):
                 click.echo(line)
         if structure:
-            seen = header_of(file)
             click.echo(" ".join(observation_names(seen.kind, seen.num_columns)))
         if raw:
             for block in blocks_of(file, first, last):

@@ -15,7 +15,7 @@ from hri.cli.groups import FiniteRange
 from hri.cli.htk.formatting import strip_contexts
 from hri.cli.htk.options import (
     References,
-    all_arguments,
+    files_to_read,
     label_folder_option,
     label_suffix_option,
     labelled_entries,
@@ -121,7 +121,7 @@ def results(
       hri htk results -I said.mlf list found.mlf
     """
     load_configuration(configs)
-    names = all_arguments(found, scripts)
+    names: list[str] = list(files_to_read(found, scripts))
     if not names:
         raise click.UsageError("there is no file of recognised labels")
     case = str.upper if ignore_case else str
