@@ -82,6 +82,29 @@ def test_gestures_are_of_the_source_that_is_chosen(signed: Path, monkeypatch: py
     assert choose_options(dataset, {"source": "landmarks"}) == choices.Choice({})
 
 
+@pytest.mark.parametrize("label", ["a\tb", "a\nb", " ", "a\u2028b"], ids=repr)
+@pytest.mark.parametrize("command", ["train speech", "train-connected", "train-units", "evaluate speech"])
+def test_labels_that_break_lines_of_tables_are_refused_with_their_file(
+    hri: Any, spoken: Path, tmp_path: Path, command: str, label: str
+) -> None:
+    for word in ("1", label):
+        (tmp_path / "spoken" / word).mkdir(parents=True)
+        shutil.copy(spoken / "1_low_0.wav", tmp_path / "spoken" / word / "low_0.wav")
+    out = () if command.startswith("evaluate") else ("--out", tmp_path / "m.hri")
+    refused = hri(*command.split(), "--data", tmp_path / "spoken", "--pattern", "{label}/{person}_{take}.wav", *out)
+    why = "is blank" if not label.strip() else "has characters that break lines and columns"
+    assert refused.code == 3 and f"low_0.wav: its label {label!r} {why}" in refused.err, refused.err
+
+
+def test_labels_that_break_lines_of_tables_are_refused_wherever_they_are_given(
+    hri: Any, spoken: Path, tmp_path: Path, word_model: Path
+) -> None:
+    added = hri("train-connected", "--data", spoken, "--front-end", "cepstra", "--add", "a\tb")
+    assert added.code == 2 and "--add: 'a\\tb' has characters that break" in added.err
+    named = hri("add-word", "--model", word_model, "--label", " ", "-o", tmp_path / "m.hri", spoken / "1_low_0.wav")
+    assert named.code == 2 and "' ' is blank" in named.err
+
+
 @pytest.mark.parametrize(
     ("command", "fit"),
     [

@@ -19,6 +19,7 @@ from hri.cli.progress import progress_bars
 from hri.cli.recognizers import (
     default_model,
     embedding_option,
+    fault_of_label,
     load_dataset,
     model_to_write,
     naming_options,
@@ -229,6 +230,8 @@ def _spellings(added: Sequence[str], recorded: Sequence[str]) -> dict[str, str]:
         label, _, text = (part.strip() for part in one.partition("="))
         if not label or label in found:
             raise click.UsageError(f"--add {one!r}: it has no label, or one that was given before")
+        if fault_of_label(label) is not None:
+            raise click.UsageError(f"--add: {fault_of_label(label)}")
         if label in recorded:
             raise click.UsageError(f"--add {one!r}: there are recordings of this word")
         found[label] = text or label

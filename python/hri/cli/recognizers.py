@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -173,6 +174,10 @@ def load_dataset(directory: str, mode: str, pattern: str | None, option: str | N
         dataset = Dataset.load(directory, mode, pattern)
     except FormatError as error:
         raise FormatError(of_patterns(str(error), option)) from error
+    for sample in dataset:
+        fault = fault_of_label(sample.label)
+        if fault is not None:
+            raise InvalidArgument(f"{sample.path}: its label {fault}")
     if dataset.ignored:
         example = dataset.ignored[0].relative_to(dataset.root)
         do = "recording does" if len(dataset.ignored) == 1 else "recordings do"
@@ -195,6 +200,13 @@ def recognizer_factory(
     except (TypeError, ValueError) as error:  # an unknown name, or a value of another type
         raise InvalidArgument(f"--option: {error}") from error
     return make
+
+
+def fault_of_label(label: str) -> str | None:
+    """Why lines of a table, cells between tabs, cannot name this label; None where they can."""
+    if any(unicodedata.category(character) in ("Cc", "Zl", "Zp") for character in label):
+        return f"{label!r} has characters that break lines and columns"
+    return None if label.strip() else f"{label!r} is blank"
 
 
 @contextmanager

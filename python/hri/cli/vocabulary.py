@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import unicodedata
 from pathlib import Path
 
 import click
@@ -12,7 +11,8 @@ import click
 from hri.cli.groups import CheckedCommand, refuse_given
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, why_not_writable, write_json
-from hri.cli.recognizers import embedding_option, kept_model, load_embedding
+from hri.cli.recognizers import embedding_option, fault_of_label, kept_model, load_embedding
+from hri.core.display import count
 from hri.core.errors import InvalidArgument
 from hri.media import read_audio
 from hri.recognition import GestureRecognizer, SubwordRecognizer, WordRecognizer, load
@@ -34,8 +34,9 @@ _out_option = click.option(
 
 
 def _printable(context: click.Context, param: click.Parameter, label: str) -> str:
-    if any(unicodedata.category(character) in ("Cc", "Zl", "Zp") for character in label):
-        raise click.BadParameter(f"{label!r} has characters that break lines and columns", context, param)
+    fault = fault_of_label(label)
+    if fault is not None:
+        raise click.BadParameter(fault, context, param)
     return label
 
 
@@ -177,5 +178,5 @@ def _keep(
     recognizer.save(target)
     labels = [str(label) for label in recognizer.classes_]
     say(str(target), json_path)
-    note(f"{len(labels)} labels: {' '.join(labels)}")
+    note(f"{count(len(labels), 'label')}: {' '.join(labels)}")
     write_json(json_path, {"model": str(target), "labels": labels})
