@@ -105,6 +105,38 @@ def test_labels_that_break_lines_of_tables_are_refused_wherever_they_are_given(
     assert named.code == 2 and "' ' is blank" in named.err
 
 
+def test_one_label_with_a_single_recording_is_one(
+    hri: Any, spoken: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("hri.cli.train.train_recognizer", lambda *_, **__: 1 / 0)
+    shutil.copytree(spoken, tmp_path / "spoken")
+    shutil.copy(spoken / "1_low_0.wav", tmp_path / "spoken" / "3_low_0.wav")
+    warned = hri("train", "speech", *QUICK, "--data", tmp_path / "spoken", "--out", tmp_path / "m.hri")
+    assert "WARNING: 1 label has a single recording: 3;" in warned.err
+
+
+@pytest.mark.parametrize(
+    ("command", "fit", "said"),
+    [
+        (("train", "speech", "--no-fillers", "--network", "--front-end", "cepstra"), "WordRecognizer",
+         ("18 recordings, 3 persons, 2 labels: 1 2", "front end: cepstra;", "a network of the same words votes too;")),
+        (("train-connected", "--front-end", "cepstra"), "ConnectedWordRecognizer",
+         ("18 recordings, 3 persons, 2 labels: 1 2", "front end: cepstra;")),
+        (("train-units",), "SubwordRecognizer", ("18 recordings, 3 persons, 2 labels: 1 2",)),
+    ],
+    ids=lambda value: value[0] if isinstance(value, tuple) else "",
+)  # fmt: skip
+def test_what_is_trained_is_said_before(
+    hri: Any, spoken: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    command: tuple[str, ...], fit: str, said: tuple[str, ...],
+) -> None:  # fmt: skip
+    """Training may take hours, and shows nothing where there is no terminal."""
+    monkeypatch.setattr(f"hri.recognition.{fit}.fit", lambda *_, **__: 1 / 0)
+    stopped = hri(*command, "--data", spoken, "--out", tmp_path / "m.hri").err.splitlines()
+    assert "ZeroDivisionError" in stopped.pop()
+    assert len(stopped) == len(said) and all(map(str.startswith, stopped, said)), stopped
+
+
 @pytest.mark.parametrize(
     ("command", "fit"),
     [

@@ -28,7 +28,8 @@ from hri.cli.recognizers import (
     pattern_option,
     refuse_chosen,
 )
-from hri.cli.train_checks import warn_of_silence
+from hri.cli.train_checks import summary_of, warn_of_silence
+from hri.core.display import count
 from hri.core.errors import InvalidArgument
 from hri.io import SpokenWords
 from hri.language import NGramModel
@@ -142,6 +143,11 @@ def train_connected(
     model = None if language is None else load_language(language, [*dataset.labels, *spellings])
     path.parent.mkdir(parents=True, exist_ok=True)
     spoken = SpokenWords(voice, spellings, num_voices, seed) if spellings else None  # refuses what is wrong now
+    # Said before training, which may take hours and shows nothing where there is no terminal.
+    note(summary_of(dataset))
+    if spellings:
+        note(f"not recorded, said by {count(num_voices, 'synthetic voice')}: {listed(spellings)}")
+    note(_what_words_are_of(recognizer))
     clips = [read_audio(sample.path) for sample in dataset.samples]
     warn_of_silence(clips, recognizer.options.words)
     labels = [sample.label for sample in dataset.samples]
@@ -167,11 +173,7 @@ def train_connected(
     else:
         SpokenWords.remove_beside(path)
     say(str(path), json_path)
-    note(f"{len(dataset)} recordings, {len(dataset.labels)} labels: {listed(dataset.labels)}")
-    if spellings:
-        note(f"not recorded, said by {num_voices} synthetic voices: {listed(spellings)}")
     note(f"insertion penalty: {recognizer.insertion_penalty:g}")
-    note(_what_words_are_of(recognizer))
     if model is not None:
         note(f"language model of order {model.order}, scale {recognizer.language_scale:g}")
     write_json(

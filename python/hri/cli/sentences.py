@@ -25,6 +25,7 @@ from hri.cli.recognizers import (
     warn_of_stored,
 )
 from hri.cli.voice import SpokenText, spoken
+from hri.core.display import count
 from hri.core.errors import Error, FormatError, InvalidArgument
 from hri.datasets.asl_sentences import read_asl_sentences
 from hri.evaluation.sentences import fit_sentences
@@ -67,12 +68,13 @@ def train_sentences(data: str, out: str | None, options: tuple[str, ...], seed: 
     path = model_to_write(MODE, out)
     sentences = read_asl_sentences(Path(data))
     path.parent.mkdir(parents=True, exist_ok=True)
+    words = sorted({word.label for sentence in sentences for word in sentence.words})
+    note(f"{count(len(sentences), 'sentence')}, {count(len(words), 'word')}: {' '.join(words)}")
     with progress_bars() as progress:
         fit_sentences(recognizer, sentences, lambda done, total: progress("training", done, total))
     recognizer.save(path)
     labels = [str(label) for label in recognizer.classes_]
     say(str(path), json_path)
-    note(f"{len(sentences)} sentences, {len(labels)} words: {' '.join(labels)}")
     write_json(json_path, {"model": str(path), "labels": labels, "options": recognizer.trained_options.as_dict()})
 
 

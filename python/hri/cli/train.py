@@ -32,7 +32,7 @@ from hri.cli.recognizers import (
     pattern_option,
     recognizer_factory,
 )
-from hri.cli.train_checks import check_recordings, warn_of_silence
+from hri.cli.train_checks import check_recordings, summary_of, warn_of_silence
 from hri.datasets import Dataset
 from hri.media import read_audio
 from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer
@@ -133,6 +133,13 @@ def train(
     if isinstance(untrained, GestureRecognizer):
         untrained.faces = faces
         require_faces(faces)
+    # Said before training, which may take hours and shows nothing where there is no terminal.
+    note(summary_of(dataset))
+    if isinstance(untrained, WordRecognizer):
+        for line in what_words_are_of(untrained.options):
+            note(line)
+    if why_source:
+        note(why_source)
     with progress_bars() as progress:
         if isinstance(untrained, WordRecognizer):
             clips = []
@@ -146,15 +153,8 @@ def train(
         )
     recognizer.save(path)
     say(str(path), json_path)
-    persons = f", {len(dataset.persons)} persons" if dataset.persons else ""
-    note(f"{len(dataset)} recordings{persons}, {len(dataset.labels)} labels: {' '.join(dataset.labels)}")
-    if isinstance(recognizer, WordRecognizer):
-        for line in what_words_are_of(recognizer.options):
-            note(line)
     if noises:
         note("trained on a copy of every recording in noise, too; what follows counts both")
-    if why_source:
-        note(why_source)
     if faces not in (None, "never"):
         note("hands: of the person whose face is seen; wherever the model is used something must find faces")
     report = recognizer.held_out

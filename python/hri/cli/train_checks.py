@@ -46,17 +46,27 @@ def check_recordings(dataset: Dataset, kept: Path | None) -> None:
     before = None if kept is None else _labels(kept)
     others = before is not None and sorted(before) != sorted(counts)
     if single:
-        number = f"each of the {len(single)} labels has" if len(single) == len(counts) else f"{len(single)} labels have"
+        some = "1 label has" if len(single) == 1 else f"{len(single)} labels have"
+        number = f"each of the {len(single)} labels has" if len(single) == len(counts) > 1 else some
         more = f" and {len(single) - _NAMED} more" if len(single) > _NAMED else ""
         said = f"{number} a single recording: {' '.join(single[:_NAMED])}{more}; does the pattern fit the names?"
         if others and len(single) == len(counts) > MOST_SINGLE:
             assert before is not None
-            raise InvalidArgument(f"{said} The model kept, of {len(before)} other labels, is not replaced: name --out")
+            raise InvalidArgument(
+                f"{said} The model kept, of {count(len(before), 'other label')}, is not replaced: name --out"
+            )
         note(f"WARNING: {said}")
     if others:
         assert kept is not None and before is not None
         made = datetime.fromtimestamp(kept.stat().st_mtime)
-        note(f"{kept}: replaces the model of {made:%Y-%m-%d %H:%M}, {len(before)} labels: {' '.join(before)}")
+        note(f"{kept}: replaces the model of {made:%Y-%m-%d %H:%M}, {count(len(before), 'label')}: {' '.join(before)}")
+
+
+def summary_of(dataset: Dataset) -> str:
+    """How many recordings of how many persons there are, and of which labels."""
+    persons = f"{count(len(dataset.persons), 'person')}, " if dataset.persons else ""
+    labels = f"{count(len(dataset.labels), 'label')}: {' '.join(dataset.labels)}"
+    return f"{count(len(dataset), 'recording')}, {persons}{labels}"
 
 
 def warn_of_silence(clips: Sequence[Audio], options: WordRecognizerOptions) -> None:

@@ -20,7 +20,8 @@ from hri.cli.recognizers import (
     parse_options,
     pattern_option,
 )
-from hri.cli.train_checks import warn_of_silence
+from hri.cli.train_checks import summary_of, warn_of_silence
+from hri.core.display import count
 from hri.core.errors import InvalidArgument
 from hri.core.files import read_text
 from hri.htk import Dictionary
@@ -93,6 +94,7 @@ def train_units(
         if label not in dataset.labels:
             raise InvalidArgument(f"--spelling {label}: no recording has this label")
     path.parent.mkdir(parents=True, exist_ok=True)
+    note(summary_of(dataset))
     clips = [read_audio(sample.path) for sample in dataset.samples]
     warn_of_silence(clips, recognizer.options.words)
     with progress_bars() as progress:
@@ -107,8 +109,7 @@ def train_units(
         )
     recognizer.save(path)
     say(str(path), json_path)
-    note(f"{len(dataset)} recordings, {len(dataset.labels)} labels: {' '.join(dataset.labels)}")
-    note(f"{len(recognizer.units)} units: {' '.join(recognizer.units)}")
+    note(f"{count(len(recognizer.units), 'unit')}: {' '.join(recognizer.units)}")
     if by_rule:
         note(f"not in {dictionary}, pronounced by espeak-ng: {' '.join(by_rule)}")
     write_json(json_path, {"model": str(path), "labels": dataset.labels, "units": list(recognizer.units)})
