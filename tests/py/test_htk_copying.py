@@ -174,7 +174,7 @@ def test_copy_takes_labels_along(hri, sounds: Path):
     for option, message in (
         (("-x", "other"), "has no label 'other' number 1"),
         (("-n", 3, 9), "has 4 labels, and not those from 3 to 9"),
-        (("-a", 2, "-n", 1), "has 1 alternatives, no number 2"),
+        (("-a", 2, "-n", 1), "has 1 alternative, no number 2"),
         (("-s", 5_000_000, "-e", 4_000_000), "nothing is left between"),
         (("-s", 90_000_000), "nothing is left between"),
         (("-e", -90_000_000), "nothing is left between 0.0 * 100 ns and 90000000.0 * 100 ns before its end"),

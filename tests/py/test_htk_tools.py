@@ -82,7 +82,7 @@ def test_init_takes_the_options_of_hinit(hri, work: Path):
     Path("three").write_text(short)
     ParameterFile(np.zeros((2, 1), np.float32), "USER", 100000).write("short.usr")
     left = hri("htk", "rest", "-M", "s", "three", "short.usr", *FILES)
-    assert left.code == 0 and "short.usr: 2 frames are fewer than the 3 that proto takes; left out" in left.err
+    assert left.code == 0 and "short.usr: 2 frames, fewer than the 3 that proto takes; left out" in left.err
 
 
 @pytest.mark.parametrize("command", ["init", "rest", "compv", "erest", "vite"])
@@ -135,7 +135,7 @@ def test_hed_writes_every_file_again(hri, words: Path):
     done = succeed(
         hri("htk", "hed", "-T", 1, "-H", "macros", "-H", "hmmdefs", "-d", "dir", "-M", "out", "e.hed", "plain")
     )
-    assert done == "e.hed: 1 commands -> out/macros out/hmmdefs out/sp\n"
+    assert done == "e.hed: 1 command -> out/macros out/hmmdefs out/sp\n"
     assert Path("out/macros").read_text().count("~") == 2
     assert Path("out/hmmdefs").read_text().index('~s "pause"') < Path("out/hmmdefs").read_text().index("~h")
     assert Path("out/sp").read_text().count('~s "pause"') == 1

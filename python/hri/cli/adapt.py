@@ -14,6 +14,7 @@ from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import embedding_option, kept_model, load_dataset, load_embedding, pattern_option
+from hri.core.display import count
 from hri.core.errors import InvalidArgument
 from hri.media import read_audio
 from hri.recognition import SpeakerAdapter, WordRecognizer
@@ -89,7 +90,7 @@ def adapt(
     for path, word in heard:
         say(f"{word}\t{path}", json_path)
     counts = {"num_words": adapter.num_words, "num_learned": adapter.num_learned}
-    note(f"learned from {adapter.num_learned} of {len(words)} recordings: {out}")
+    note(f"learned from {adapter.num_learned} of {count(len(words), 'recording')}: {out}")
     write_json(json_path, {"model": out, **counts, "labels": {str(path): word for path, word in heard}})
 
 

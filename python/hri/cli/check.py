@@ -17,6 +17,7 @@ from hri.cli.groups import CheckedCommand
 from hri.cli.messages import note
 from hri.cli.motions import findings_of, is_file, is_message, robot_option
 from hri.cli.output import OutputFile, json_option, say, write_json
+from hri.core.display import count
 from hri.robot.model.joints import JointTable
 from hri.robot.motion.reading import require_pulses
 from hri.robot.motion.repair import repair_pulse_csv
@@ -61,7 +62,7 @@ def check(motions: tuple[str, ...], repaired: Path | None, table: JointTable, js
         for row in _rows(findings):
             say("\t".join(row if len(motions) == 1 else (motion, *row)), json_path)
         errors = sum(finding.severity == "error" for finding in findings)
-        note(f"{motion}: {errors} errors, {len(findings) - errors} warnings")
+        note(f"{motion}: {count(errors, 'error')}, {count(len(findings) - errors, 'warning')}")
         found.append({"motion": motion, "errors": errors, "findings": [asdict(finding) for finding in findings]})
     write_json(json_path, {"robot": table.name, "motions": found})
     if any(one["errors"] for one in found):

@@ -11,6 +11,7 @@ import click
 
 from hri.cli.groups import FiniteRange, SuggestingGroup
 from hri.cli.progress import progress_bars
+from hri.core.display import count
 from hri.synthetic.drawing.options import BACKGROUNDS, LIGHTS, RANGES, SKINS, SLEEVES, SignerOptions
 from hri.synthetic.sentences import SENTENCES, make_sentence_corpus
 from hri.synthetic.signer import SIGNS, make_gesture_corpus
@@ -75,7 +76,8 @@ def speech(
             lambda done, total: progress("speaking", done, total),
             replace,
         )
-    click.echo(f"{len(dataset)} synthetic recordings of {len(dataset.labels)} words by {speakers} voices: {out}")
+    recordings = count(len(dataset), "synthetic recording")
+    click.echo(f"{recordings} of {count(len(dataset.labels), 'word')} by {count(speakers, 'voice')}: {out}")
 
 
 def _number(name: str, text: str) -> Callable[[Any], Any]:
@@ -158,8 +160,9 @@ def gesture(
             first_person,
             replace,
         )
-    what = "pictures" if kind == "still" else "clips"
-    click.echo(f"{len(dataset)} synthetic {what} of {len(dataset.labels)} signs by {persons} drawn people: {out}")
+    pictures = count(len(dataset), "synthetic picture" if kind == "still" else "synthetic clip")
+    people = count(persons, "drawn person", "drawn people")
+    click.echo(f"{pictures} of {count(len(dataset.labels), 'sign')} by {people}: {out}")
 
 
 @corpus.command("sentences")
@@ -200,7 +203,8 @@ def signed_sentences(
             replace,
         )
     num_words = len({word.label for sentence in written for word in sentence.words})
-    click.echo(f"{len(written)} synthetic sentences of {num_words} words by {signers} drawn people: {out}")
+    people = count(signers, "drawn person", "drawn people")
+    click.echo(f"{count(len(written), 'synthetic sentence')} of {count(num_words, 'word')} by {people}: {out}")
 
 
 def _split(word: str) -> tuple[str, str]:

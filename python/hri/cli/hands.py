@@ -15,6 +15,7 @@ from hri.cli.messages import note
 from hri.cli.output import OutputFile, write_json, write_text
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import naming_options, parse_options
+from hri.core.display import count
 from hri.features.hand import HAND_KINDS, hand_column_names
 from hri.media import DEFAULT_FPS, VIDEO_SUFFIXES, Clip, read_frames, read_image, read_pictures
 from hri.vision.film import film_hands
@@ -151,7 +152,7 @@ def hands(
     for side, found in report.hands.items():
         which = "a hand" if side == "hand" else f"a {side} hand"
         num_found = sum(hand.found for hand in found)
-        note(f"{written or clip}: {which} in {num_found} of {len(found)} frames")
+        note(f"{written or clip}: {which} in {num_found} of {count(len(found), 'frame')}")
 
 
 def _options(method: Any) -> Any:

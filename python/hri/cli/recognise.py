@@ -17,6 +17,7 @@ from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import progress_bars
 from hri.cli.recognizers import embedding_option, kept_model, load_embedding
+from hri.core.display import count
 from hri.core.errors import Error, FormatError, InvalidArgument
 from hri.core.phrases import phrase
 from hri.core.suggest import did_you_mean
@@ -202,7 +203,7 @@ def _recognise_each(recognizer: Any, files: list[str], top: int, json_path: str 
         rows.append({"file": file, **decision.to_dict()})
     write_json(json_path, rows)
     if failures:
-        raise FormatError(f"{len(failures)} of {len(files)} recordings not recognised, first {failures[0]}")
+        raise FormatError(f"{len(failures)} of {count(len(files), 'recording')} not recognised, first {failures[0]}")
 
 
 def _described(recognizer: Any, path: str, top: int) -> Decision:

@@ -24,6 +24,7 @@ from hri.cli.live_screen import (
 )
 from hri.cli.messages import note
 from hri.cli.result_screen import ResultScreen
+from hri.core.display import count
 from hri.core.errors import FormatError
 from hri.live import AudioSource, Event, FrameSource, GestureRecorder, VideoSource, WordRecorder
 
@@ -154,7 +155,7 @@ def gesture(
 
 def _summarise(recorder: WordRecorder | GestureRecorder, person: str, out: str, files: tuple[str, ...]) -> None:
     missing = recorder.missing()
-    done = f"{recorder.num_takes - len(missing)} of {recorder.num_takes} recordings by {person} are in {out}"
+    done = f"{recorder.num_takes - len(missing)} of {count(recorder.num_takes, 'recording')} by {person} are in {out}"
     note(done)
     if missing:
         raise FormatError(f"{', '.join(files)}: ended before '{missing[0][0]}', take {missing[0][1]}")

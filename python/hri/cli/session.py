@@ -20,6 +20,7 @@ from hri.cli.robot import nao_url_option
 from hri.cli.session_devices import open_camera, open_microphone, open_voice, require_nao
 from hri.cli.session_options import ChosenSession, model_file, refuse_unused, session_options
 from hri.cli.session_screen import show_session
+from hri.core.display import count
 from hri.core.errors import InvalidArgument
 from hri.live import FileSource, VideoSource
 from hri.media import kind_of_file
@@ -172,7 +173,7 @@ def _replay(path: Path, chosen: ChosenSession, as_json: bool) -> None:
     show_session(kept(), as_json, lambda: False)
     place = compared.difference()
     if place is None:
-        note(f"{path}: {compared.num_same} events of the session, all as recorded")
+        note(f"{path}: {count(compared.num_same, 'event')} of the session, all as recorded")
         return
     note(f"{path}: differs from what was recorded at {place['time']:g} s, {place['event']}")
     sys.exit(EXIT_DIFFERENT)

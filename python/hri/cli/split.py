@@ -15,6 +15,7 @@ from hri.cli.groups import CheckedCommand, FiniteRange
 from hri.cli.messages import note
 from hri.cli.output import json_option, say, write_json
 from hri.cli.progress import progress_bars
+from hri.core.display import count
 from hri.media import read_frames
 from hri.vision.hands import find_silhouettes
 from hri.vision.splitting import KEY_FRAMES, direction_changes, key_frames, split_at_pauses, subsample
@@ -78,7 +79,7 @@ def split(
         times = (video.times_s[first], video.times_s[last - 1])
         parts.append({"frames": [first, last], "key_frames": list(middle), "seconds": list(times)})
         say(f"{first}\t{last}\t{middle[0]}\t{middle[1]}\t{times[0]:.2f}\t{times[1]:.2f}", json_path)
-    note(f"{clip}: {len(parts)} parts in {len(video.frames)} frames")
+    note(f"{clip}: {count(len(parts), 'part')} in {count(len(video.frames), 'frame')}")
     write_json(json_path, {"file": clip, "num_frames": len(video.frames), "parts": parts})
 
 

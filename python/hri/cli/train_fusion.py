@@ -26,6 +26,7 @@ from hri.cli.messages import note
 from hri.cli.output import OutputFile, json_option, say, write_json
 from hri.cli.progress import Progress, progress_bars
 from hri.cli.recognizers import embedding_for, embedding_option, load_dataset, recognizer_factory
+from hri.core.display import count
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
 from hri.evaluation import EvaluationResult, cross_validate
@@ -144,7 +145,8 @@ def train_fusion(
     pairs = pair_decisions(said, shown, seed=seed)
     LearnedFusion(kind, seed).fit_decisions(pairs.speech, pairs.gesture, pairs.labels).save(path)
     say(str(path), json_path)
-    note(f"{len(pairs.labels)} pairs of words and signs of held-out persons, {len(common)} labels: {' '.join(common)}")
+    num_pairs = count(len(pairs.labels), "pair")
+    note(f"{num_pairs} of words and signs of held-out persons, {len(common)} labels: {' '.join(common)}")
     for line in filter(None, notes):
         note(line)
     shares = _measured(decided, kind, seed)

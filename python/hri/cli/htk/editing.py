@@ -18,6 +18,7 @@ from hri.cli.htk.options import (
 )
 from hri.cli.htk.standard import BINARY, INPUT, HtkCommand, refused_options, standard_options
 from hri.cli.output import write_text
+from hri.core.display import count
 from hri.core.files import make_folder
 from hri.htk import EditScript, read_list
 
@@ -76,4 +77,4 @@ def hed(
         make_folder(Path(path).parent)
         write_text(Path(path), text)
     if trace:
-        click.echo(f"{script}: {commands.num_commands} commands -> {' '.join(map(str, targets))}")
+        click.echo(f"{script}: {count(commands.num_commands, 'command')} -> {' '.join(map(str, targets))}")

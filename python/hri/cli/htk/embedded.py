@@ -34,6 +34,7 @@ from hri.cli.htk.standard import (
 from hri.cli.htk.training import NOTHING, updates_option, weight_floor_option
 from hri.cli.messages import note
 from hri.cli.output import OutputFile, write_text
+from hri.core.display import count
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import make_folder
 from hri.htk import Configuration, EmbeddedTrainer, EmbeddedTrainerOptions, ModelOccupation, ModelSet, read_list
@@ -162,12 +163,12 @@ def erest(
         target = Path(make_folder(folder or "."), f"HER{part}.acc")
         trainer.write_sums(target)
         if trace:
-            click.echo(f"{trainer.num_frames} frames -> {target}")
+            click.echo(f"{count(trainer.num_frames, 'frame')} -> {target}")
         return
     occupations = [one for one in trainer.occupations() if one.name in names.values()]
     for one in occupations:
         if one.num_examples < min_examples:
-            note(f"{one.name}: occurs {one.num_examples} times, fewer than {min_examples}; not trained")
+            note(f"{one.name}: occurs {count(one.num_examples, 'time')}, fewer than {min_examples}; not trained")
     renamed = {} if new_suffix is None else {path: str(Path(path).with_suffix(f".{new_suffix}")) for path in listed}
     sources.write(trainer.estimate(), folder, renamed)
     if statistics is not None:
@@ -195,7 +196,7 @@ def _add_all(
             note(f"{file.name}: {WHY[outcome]}")
         elif trace:
             gained = (trainer.log_likelihood - before) / len(frames)
-            click.echo(f"{file.name}: {len(frames)} frames, {gained:.4f} a frame")
+            click.echo(f"{file.name}: {count(len(frames), 'frame')}, {gained:.4f} a frame")
 
 
 def _units(file: str, references: References, names: dict[str, str]) -> list[str]:

@@ -21,6 +21,7 @@ from hri.cli.htk.options import (
 )
 from hri.cli.htk.standard import BINARY, HtkCommand, refused_options
 from hri.cli.htk.training import NOTHING, label_option, segments
+from hri.core.display import count
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import make_folder
 from hri.htk import FlatStart
@@ -86,4 +87,4 @@ def compv(
     if floors is not None:
         floors.write(Path(make_folder(folder or "."), "vFloors"))
     if trace:
-        click.echo(f"{model}: {start.num_frames} frames -> {target}")
+        click.echo(f"{model}: {count(start.num_frames, 'frame')} -> {target}")

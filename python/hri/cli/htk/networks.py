@@ -13,6 +13,7 @@ import numpy as np
 from hri.cli.htk.options import files_to_read, labelled_entries, load_configuration
 from hri.cli.htk.standard import INPUT, HtkCommand, refused_options, standard_options
 from hri.cli.output import OutputFile
+from hri.core.display import count
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.files import make_folder, read_text
 from hri.htk import (
@@ -65,7 +66,7 @@ def parse(
         Dictionary([Pronunciation(word, [word]) for word in words]).write(dictionary)
     network.write(lattice)
     if trace:
-        click.echo(f"{grammar}: {len(network.words)} nodes, {len(network.arcs)} arcs -> {lattice}")
+        click.echo(f"{grammar}: {count(len(network.words), 'node')}, {count(len(network.arcs), 'arc')} -> {lattice}")
 
 
 def _with_equal_weights(network: WordLattice) -> WordLattice:
@@ -197,7 +198,7 @@ def build(
         network = _bigram(language, words, markers, unknown, arpa or word_list)
     network.write(lattice)
     if trace:
-        click.echo(f"{word_list}: {len(words)} words, {len(network.arcs)} arcs -> {lattice}")
+        click.echo(f"{word_list}: {count(len(words), 'word')}, {count(len(network.arcs), 'arc')} -> {lattice}")
 
 
 def _sentences(masters: tuple[str, ...], scripts: tuple[str, ...]) -> list[list[str]] | None:

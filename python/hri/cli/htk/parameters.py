@@ -156,8 +156,9 @@ def copy(
             where = source
             if spans or wants_labels:
                 transcription, where = references.locate(source)
+                num_found = count(len(transcription.alternatives), "alternative")
                 if level > len(transcription.alternatives):
-                    raise FormatError(f"{where}: has {len(transcription.alternatives)} alternatives, no number {level}")
+                    raise FormatError(f"{where}: has {num_found}, no number {level}")
                 found = list(transcription.alternatives[level - 1])
             first, last = (start, end) if not spans else _span(found, where, numbers, named, margin)
             part = Source(source, first, last)
@@ -236,7 +237,9 @@ def _span(
         first, last = (n - 1 if n > 0 else len(labels) + n for n in numbers)
         wanted = labels[first : last + 1] if 0 <= first <= last < len(labels) else []
         if not wanted:
-            raise FormatError(f"{where}: has {len(labels)} labels, and not those from {numbers[0]} to {numbers[1]}")
+            raise FormatError(
+                f"{where}: has {count(len(labels), 'label')}, and not those from {numbers[0]} to {numbers[1]}"
+            )
     begin, end = wanted[0].first, wanted[-1].last
     if begin is None or end is None:
         raise FormatError(f"{where}: line {wanted[0].line}: the label {wanted[0].name!r} has no times")

@@ -14,6 +14,7 @@ from hri.cli.htk.options import References, load_configuration, recording_option
 from hri.cli.htk.standard import HtkCommand, NumbersOption, refused_options
 from hri.cli.htk.training import NOTHING, label_option, segments
 from hri.cli.output import OutputFile
+from hri.core.display import count
 from hri.core.errors import FormatError
 from hri.core.files import make_folder
 from hri.htk import ModelSet, VqTable, read_header
@@ -103,7 +104,9 @@ def quant(
     VqTable(codewords, models.kind, deviation).write(table)
     if trace:
         distortion = codebook.report_.distortions[-1]
-        click.echo(f"{len(rows)} frames -> {len(codewords)} codewords, distortion {distortion:.4f}: {table}")
+        click.echo(
+            f"{count(len(rows), 'frame')} -> {count(len(codewords), 'codeword')}, distortion {distortion:.4f}: {table}"
+        )
 
 
 def _plain(kind: str) -> str:

@@ -25,6 +25,7 @@ from hri.cli.htk.options import (
 )
 from hri.cli.htk.standard import BINARY, HtkCommand, refused_options
 from hri.cli.messages import note
+from hri.core.display import count
 from hri.core.errors import FormatError, InvalidArgument
 from hri.htk import (
     Configuration,
@@ -181,11 +182,13 @@ def _train(
         least = min_frames_of(sources.models, model)
         for where, frames in segments(recordings, sources.models, configuration, references, label, period):
             if len(frames) < max(least, 1):
-                note(f"{where}: {len(frames)} frames are fewer than the {least} that {model} takes; left out")
+                note(f"{where}: {count(len(frames), 'frame')}, fewer than the {least} that {model} takes; left out")
             else:
                 sequences.append(frames)
         if len(sequences) < min_examples:
-            raise FormatError(f"{prototype}: {len(sequences)} recordings to train on, fewer than {min_examples} (-m)")
+            raise FormatError(
+                f"{prototype}: {count(len(sequences), 'recording')} to train on, fewer than {min_examples} (-m)"
+            )
         made, scores = train(sources.models, model, sequences)
         made.rename_hmm(model, name or model)
     except InvalidArgument as error:
@@ -195,7 +198,7 @@ def _train(
         frames_in_all = sum(map(len, sequences))
         for number, score in enumerate(scores, 1):
             click.echo(f"pass {number}: {score / frames_in_all:.4f} a frame")
-        click.echo(f"{name or model}: {len(sequences)} recordings -> {target}")
+        click.echo(f"{name or model}: {count(len(sequences), 'recording')} -> {target}")
 
 
 def segments(
