@@ -429,3 +429,13 @@ def test_memory_does_not_grow_with_the_recording(tmp_path: Path) -> None:
     peak_bytes(1)  # what is imported on the way
     few, many = peak_bytes(10), peak_bytes(80)
     assert many < 1.2 * few < 12 << 20, (few, many)
+
+
+def test_a_recording_that_was_cut_is_said_to_end_early(tmp_path: Path) -> None:
+    """Wherever it was cut, as by a copy that was interrupted."""
+    path = made(tmp_path / "whole.mcap", GOOD, [sound_info(), timed(), heard()])
+    data = path.read_bytes()
+    for size in (*range(8, len(data), 37), len(data) - 1):
+        (tmp_path / "cut.mcap").write_bytes(data[:size])
+        with pytest.raises(FormatError, match=r"cut\.mcap: not a recorded session: the file ends early$"):
+            read_all(tmp_path / "cut.mcap")

@@ -75,6 +75,19 @@ def test_a_video_gives_what_its_frames_give_and_every_event_is_a_line(
         VideoSource(tmp_path / "broken.avi")
 
 
+def test_what_is_no_video_is_said_to_be_what_it_is(
+    request: pytest.FixtureRequest, signs: hri.GestureRecognizer, tmp_path: Path
+) -> None:
+    signs.save(tmp_path / "signs.hri")
+    for name, message in (
+        ("seven.jpg", "seven.jpg is a picture, and a video is needed here; 'hri recognise' takes pictures"),
+        ("seven.wav", "seven.wav is a sound file, and a video is needed here"),
+    ):
+        (tmp_path / name).touch()
+        done = request.getfixturevalue("hri")("watch", "--model", tmp_path / "signs.hri", tmp_path / name)
+        assert done.code == 3 and message in done.err, done.err
+
+
 def test_a_wall_gives_no_decision_and_a_hand_the_recogniser_does_not_see_no_input(
     signs: hri.GestureRecognizer,
 ) -> None:

@@ -22,7 +22,7 @@ from hri.cli.result_screen import ResultScreen
 from hri.core.errors import InvalidArgument
 from hri.core.files import MAX_MODEL_BYTES, read_bytes
 from hri.live import Event, FrameSource, PersonTracks, SignWatcher, VideoSource, Watcher
-from hri.media import VIDEO_SUFFIXES
+from hri.media import VIDEO_SUFFIXES, kind_of_file
 from hri.recognition import SentenceRecognizer
 from hri.vision.faces import face_finder
 
@@ -89,6 +89,9 @@ def watch(
         refuse_given(("device", "stall_s", "reconnect_s"), "is of a camera, and FILES take its place")
     else:
         refuse_given(("paced",), "is of videos: name FILES")
+    for file in files:
+        if kind_of_file(Path(file)) == "a picture":
+            raise InvalidArgument(f"{file} is a picture, and a video is needed here; 'hri recognise' takes pictures")
     path = Path(model_path) if model_path else kept_model("gesture")
     signs = load_signs(path)
     look_for_faces(signs, faces)

@@ -6,15 +6,16 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable, Iterator
-from os import PathLike
+from os import PathLike, fspath
 from pathlib import Path
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.errors import FormatError
 from hri.live.sources import require_positive
-from hri.media import frame_rate, iterate_frames
+from hri.media import frame_rate, iterate_frames, kind_of_file
 
 Frame = NDArray[np.uint8]
 TimedFrame = tuple[Frame, float]
@@ -106,5 +107,8 @@ class VideoSource(ClipSource):
     """
 
     def __init__(self, path: str | PathLike[str], paced: bool = False) -> None:
+        kind = kind_of_file(Path(path))
+        if kind not in ("", "a video"):
+            raise FormatError(f"{fspath(path)} is {kind}, and a video is needed here")
         super().__init__((), frame_rate(path), Path(path).name, paced)
         self._timed = iterate_frames(path)

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Callable, Collection, Generator, Iterator
 from contextlib import closing
 from dataclasses import dataclass
@@ -37,6 +38,7 @@ MAX_JSON_BYTES = 1 << 20
 """Of an event, or another text."""
 MAX_CHUNK_BYTES = 1 << 27
 """Of a message, and of what is decompressed at once."""
+_MAGIC = b"\x89MCAP0\r\n"
 _MAX_RATE_HZ = 1_000_000
 _NUMBERS = {
     kinds.SPEECH_START: ("first_s",),
@@ -149,7 +151,18 @@ def _reading(path: Path, read: Callable[[Iterator[Any]], Iterator[Read]]) -> Gen
         except Error:
             raise
         except Exception as error:  # the libraries raise many kinds for what is damaged
-            raise wrong(path, f"{type(error).__name__}: {error}") from error
+            what = "the file ends early" if _is_cut(file) else f"{type(error).__name__}: {error}"
+            raise wrong(path, what) from error
+
+
+def _is_cut(file: IO[bytes]) -> bool:
+    """Whether a file begins as MCAP files do, and does not end as they do: by the same bytes."""
+    file.seek(0)
+    if file.read(len(_MAGIC)) != _MAGIC:
+        return False
+    size = file.seek(0, os.SEEK_END)
+    file.seek(-len(_MAGIC), os.SEEK_END)
+    return size < 2 * len(_MAGIC) or file.read() != _MAGIC
 
 
 def _records(file: IO[bytes]) -> Iterator[Any]:
