@@ -151,6 +151,33 @@ TEST(ModelFileDamage, TextIsNoNumberForItsFirstCharacters) {
   }
 }
 
+std::string refusal_of(const Bytes& bytes) {
+  return message_of<FormatError>([&] { ModelFile::parse(bytes, "x"); });
+}
+
+TEST(ModelFileDamage, ACutFileSaysHowMuchOfItIsThere) {
+  const Bytes whole = small().serialise();
+  const std::size_t head = 8 + header_of(whole).size();
+  for (std::size_t size = 8; size < whole.size(); ++size) {
+    const std::size_t needed = size < head ? head : whole.size();
+    EXPECT_EQ(refusal_of(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))),
+              "x: is cut: " + std::to_string(size) + " of " + (size < head ? "at least " : "") +
+                  std::to_string(needed) + " bytes are there");
+  }
+  // An end beyond all files is damage, and no cut.
+  EXPECT_NE(refusal_of(with("[16,32]", "[18446744073709551599,18446744073709551615]")).find("'b'"),
+            std::string::npos);
+}
+
+TEST(ModelFileDamage, AnotherFileIsSaidToBeNone) {
+  const std::string text = "# The command line\n";
+  for (const Bytes& bytes :
+       {Bytes(text.begin(), text.end()), Bytes{'R', 'I', 'F', 'F', 36, 0, 0, 0, 'W', 'A', 'V', 'E'},
+        Bytes(64, 0), Bytes(64, 255), packed("no object", {}), packed("", {})})
+    EXPECT_EQ(refusal_of(bytes).rfind("x: is no model file of hri", 0), 0U) << refusal_of(bytes);
+  EXPECT_EQ(refusal_of(Bytes(7, 0)), "x: too short for a model file: 7 bytes");
+}
+
 TEST(ModelFileDamage, BytesThatNoTensorOwnsAreRefused) {
   Bytes bytes = small().serialise();
   bytes.push_back(0);
