@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 
-from hri.cli.messages import note
+from hri.cli.messages import listed, note
 from hri.core.display import count
 from hri.core.errors import Error, InvalidArgument
 from hri.datasets import Dataset
@@ -65,7 +65,7 @@ def check_recordings(dataset: Dataset, kept: Path | None) -> None:
 def summary_of(dataset: Dataset) -> str:
     """How many recordings of how many persons there are, and of which labels."""
     persons = f"{count(len(dataset.persons), 'person')}, " if dataset.persons else ""
-    labels = f"{count(len(dataset.labels), 'label')}: {' '.join(dataset.labels)}"
+    labels = f"{count(len(dataset.labels), 'label')}: {listed(dataset.labels)}"
     return f"{count(len(dataset), 'recording')}, {persons}{labels}"
 
 

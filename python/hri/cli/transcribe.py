@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -30,6 +29,7 @@ from hri.core.files import make_folder
 from hri.htk import MasterLabelFile, Transcription, WordLattice
 from hri.language import Grammar
 from hri.live import AudioSource
+from hri.live.events import json_line
 from hri.media import VIDEO_SUFFIXES
 from hri.recognition import ConnectedWordRecognizer, ConnectedWordStream, Transcript, UtteranceResult
 from hri.recognition.sentence.transcript import UNKNOWN
@@ -313,7 +313,7 @@ def _follow(recognizer: ConnectedWordRecognizer, source: AudioSource, wake: str,
             fields: dict[str, Any] = {"event": "final" if result.is_final else "partial", "source": source.name}
             fields |= {"first_s": round(result.first_s, 3), "last_s": round(result.last_s, 3)}
             fields |= {"num_stable": result.num_stable, **transcript.to_dict()}
-            click.echo(json.dumps(fields, ensure_ascii=False))
+            click.echo(json_line(fields))
 
     try:
         while (block := source.read()) is not None:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 
 import click
@@ -262,7 +262,7 @@ def vite(
     results.finish()
 
 
-def _check_source(live: bool, played: list[str]) -> None:
+def _check_source(live: bool, played: Sequence[str]) -> None:
     """Refuse options that would have no effect."""
     if not live:
         refuse_given(("device", "stall_s", "paced", "as_json", "saves"), "goes with --live")
@@ -281,7 +281,7 @@ def _check_source(live: bool, played: list[str]) -> None:
         )
 
 
-def _streams(played: list[str], paced: bool, device: str | None, stall_s: float) -> Iterator[AudioSource]:
+def _streams(played: Sequence[str], paced: bool, device: str | None, stall_s: float) -> Iterator[AudioSource]:
     """Recordings, each opened when its turn comes; without any the microphone."""
     for path in played:
         yield recording(path, paced)
