@@ -14,6 +14,7 @@ import pytest
 
 import hri
 from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.io import write_wav_pcm16
 from hri.media import Audio, read_audio, read_frames, read_image
 from hri.recognition import inputs
 from hri.recognition.inputs import as_audio, as_frames
@@ -226,6 +227,20 @@ def test_a_model_of_the_other_kind_is_said_to_be_one(
         hri.WordRecognizer.load(tmp_path / "signs.hri")
     with pytest.raises(FormatError, match=r"1_low_0\.wav is a sound file, and a word recogniser is needed"):
         hri.WordRecognizer.load(spoken / "1_low_0.wav")
+
+
+def test_connected_words_name_the_file_that_is_bad(spoken: Path, tmp_path: Path) -> None:
+    clips = sorted(spoken.glob("*.wav"))
+    labels = [path.name[0] for path in clips]
+    write_wav_pcm16(str(tmp_path / "click.wav"), np.zeros(1, np.float32), 16000)
+    with pytest.raises(FormatError, match=r"click\.wav: audio is too short"):
+        hri.ConnectedWordRecognizer().fit([*clips, tmp_path / "click.wav"], [*labels, "1"])
+    broken = np.where(np.arange(16000) == 5, np.nan, 0.1).astype(np.float32)
+    with pytest.raises(InvalidArgument, match=r"X\[1\]: audio is not finite at sample 5"):
+        hri.ConnectedWordRecognizer().fit([np.zeros(16000), broken], ["1", "2"], sample_rate_hz=16000)
+    for label in ("<unk>", "<sil>"):
+        with pytest.raises(InvalidArgument, match=f"'{label}' stands for no word"):
+            hri.ConnectedWordRecognizer().fit(clips, [label, *labels[1:]])
 
 
 def test_class_thresholds_are_saved_with_the_model(words: hri.WordRecognizer, spoken: Path, tmp_path: Path) -> None:
