@@ -101,7 +101,8 @@ def _chosen(heard: Sequence[Heard]) -> float:
 def _rows(heard: Sequence[Heard], chosen: Mapping[str, float]) -> list[Row]:
     """By bound: none, the default one, and that which is `chosen` for each person; shares are of a person each."""
     persons = sorted(chosen)
-    bounds = {"0": dict.fromkeys(persons, 0.0), "default": dict.fromkeys(persons, MIN_CONFIDENCE), "chosen": chosen}
+    bounds = {"0": dict.fromkeys(persons, 0.0), "default": dict.fromkeys(persons, MIN_CONFIDENCE)}
+    bounds["chosen"] = {person: chosen[person] for person in persons}  # sums are the same in the same order
     rows: list[Row] = []
     for name, of_person in bounds.items():
         for condition in (QUIET, NOISY, OTHER_WORDS):
