@@ -22,6 +22,7 @@ from hri.core.errors import FormatError, InvalidArgument
 from hri.htk import Configuration, FeatureExtractor, Label, ModelSet, observe_samples
 from hri.live import AudioSource, Event, UtteranceFinder
 from hri.recognition import ConnectedWordStreamOptions
+from hri.recognition.decision import Decision
 from hri.signal import EndpointerOptions, resample
 
 SENTENCE = "sentence"
@@ -36,10 +37,13 @@ class SentenceEvent(Event):
 
     Attributes
     ----------
+    decision : None
+        Sentences of HTK are not decided on.
     found : Found or None
         None: no sentence of the network ends with it.
     """
 
+    decision: Decision | None = None
     found: Found | None = None
 
 
