@@ -14,7 +14,9 @@ from conftest import RATE_HZ, tone_word
 from hri.datasets import Dataset
 from hri.htk import MasterLabelFile
 from hri.io import write_wav_pcm16
+from hri.media import read_audio
 from hri.recognition import ConnectedWordRecognizer
+from hri.signal import find_speech
 
 WORDS = ["1", "2", "2", "1"]
 
@@ -85,14 +87,21 @@ def test_a_confusion_network_is_printed(hri, model: Path, number: Path, tmp_path
     report = json.loads((tmp_path / "j").read_text())[str(number)]
     assert report["text"] == "1 2 2 1" and len(report["confusions"]) == len(slots)
     for place, slot, line in zip(report["confusions"], slots, done.out.splitlines(), strict=True):
-        assert place["first_s"] == pytest.approx(first_s + slot.first_frame * frame_s)
-        assert place["last_s"] == pytest.approx(first_s + slot.last_frame * frame_s)
+        assert place["first_s"] == pytest.approx(max(0.0, first_s + slot.first_frame * frame_s))
+        assert place["last_s"] == pytest.approx(max(0.0, first_s + slot.last_frame * frame_s))
         words = [(word["label"], word["probability"]) for word in place["words"]]
         assert words == [(None if index < 0 else str(recognizer.classes_[index]), p) for index, p in slot.entries]
         fields = [f"{place['first_s']:.3f}", f"{place['last_s']:.3f}"]
         assert line.split("\t") == fields + [f"{label or '-'} {p:.3f}" for label, p in words if p >= 0.0005]
     best = [field.split()[0] for field in column(done.out, 2)]
     assert [label for label in best if label != "-"] == WORDS and any(len(slot.entries) > 2 for slot in slots)
+    # Around a word at the very beginning frames begin before the recording.
+    audio = read_audio(number)
+    first, last = find_speech(audio.samples, RATE_HZ) or (0, 0)
+    write_wav_pcm16(str(tmp_path / "cut.wav"), audio.samples[first:last], RATE_HZ)
+    assert recognizer.lattice(tmp_path / "cut.wav")[1] < 0
+    cut = hri("transcribe", tmp_path / "cut.wav", "--model", model, "--confusions")
+    assert min(map(float, column(cut.out, 0))) == 0.0
     three = hri("transcribe", number, "--model", model, "--confusions", "--words", 3)
     assert len([field for field in column(three.out, 2) if field[0] != "-"]) == 3
     for other in (("--times",), ("--alternatives", 2), ("--stream",)):

@@ -281,8 +281,9 @@ def _confusions(recognizer: ConnectedWordRecognizer, file: str, num_words: int |
     labels = [*map(str, recognizer.classes_), SILENCE, UNKNOWN]
     return [
         {
-            "first_s": first_s + slot.first_frame * frame_s,
-            "last_s": first_s + slot.last_frame * frame_s,
+            # The first frame may begin before the recording.
+            "first_s": max(0.0, first_s + slot.first_frame * frame_s),
+            "last_s": max(0.0, first_s + slot.last_frame * frame_s),
             "words": [{"label": labels[model] if model >= 0 else None, "probability": p} for model, p in slot.entries],
         }
         for slot in lattice.confusion_network(recognizer.trained_options.confidence_scale)
