@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from sklearn.model_selection import cross_val_score
 
 import hri
 from hri.core.errors import FormatError, InvalidArgument, IoError
@@ -176,6 +177,42 @@ def test_one_utterance_in_place_of_several_is_refused(words: hri.WordRecognizer,
         words.predict([spoken / "1_low_0.wav", np.zeros(800, np.float32)])
     with pytest.raises(InvalidArgument, match="differ in length: 2, 1"):
         words.predict([np.zeros(800, np.float32)] * 2, sample_rate_hz=[16000])
+
+
+def test_an_array_of_paths_is_a_sequence(
+    words: hri.WordRecognizer, signs: hri.GestureRecognizer, spoken: Path, signed: Path
+) -> None:
+    clips = sorted(map(str, spoken.glob("*.wav")))
+    assert list(words.predict(np.array(clips))) == list(words.predict(clips))
+    pictures = [sample.path for sample in hri.Dataset.load(signed, "gesture")]
+    assert list(signs.predict(np.array(pictures, object))) == list(signs.predict(pictures))
+    scores = cross_val_score(words, np.array(clips), [Path(clip).name[0] for clip in clips], cv=2, error_score="raise")
+    assert scores.shape == (2,)
+
+
+@pytest.mark.parametrize("label", [None, float("nan"), 1.0, True, b"1", ["1"]])
+def test_what_is_no_label_is_refused_by_name(spoken: Path, label: object) -> None:
+    clips = sorted(spoken.glob("*.wav"))[:2]
+    with pytest.raises(InvalidArgument, match=r"^y\[1\] must be text, got"):
+        hri.WordRecognizer().fit(clips, ["1", label])  # type: ignore[list-item]
+    with pytest.raises(InvalidArgument, match=r"^groups\[0\] must be text, got"):
+        hri.ConnectedWordRecognizer().fit(clips, ["1", "2"], groups=[label, "low"])  # type: ignore[list-item]
+    with pytest.raises(InvalidArgument, match=r"^y\[1\] must be text, got"):
+        hri.GestureRecognizer().fit([np.zeros((9, 9, 3), np.uint8)] * 2, ["1", label])  # type: ignore[list-item]
+
+
+def test_labels_may_be_integers(words: hri.WordRecognizer, spoken: Path) -> None:
+    clips = sorted(spoken.glob("*.wav"))
+    numbers = [int(clip.name[0]) for clip in clips]
+    trained = words.untrained().fit(clips, numbers)  # type: ignore[arg-type]
+    assert list(trained.classes_) == sorted({str(number) for number in numbers})
+    assert trained.score(clips, numbers) == words.score(clips, [str(number) for number in numbers])  # type: ignore[arg-type]
+
+
+def test_a_model_is_of_a_known_mode(tmp_path: Path, words: hri.WordRecognizer) -> None:
+    words.save(tmp_path / "words.hri")
+    with pytest.raises(InvalidArgument, match=r"mode must be .speech., .gesture. or None, got 'word'"):
+        hri.load(tmp_path / "words.hri", "word")  # type: ignore[call-overload]
 
 
 def test_samples_of_a_data_set_and_several_signs(

@@ -147,7 +147,7 @@ class Recognizer:
             return np.log(self.predict_proba(X))
 
     def score(self, X: Sequence[Any], y: Sequence[str]) -> float:
-        """Share of items whose best label is right, 0..1; labels that are not text are read as `fit` reads them."""
+        """Share of items whose best label is right, 0..1; integers count as their digits, as in `fit`."""
         return share_right(self.predict(X), y)
 
 

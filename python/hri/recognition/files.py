@@ -57,13 +57,15 @@ def load(
     FormatError
         For a file that holds anything else, and for other weights of an embedding than those of training.
     InvalidArgument
-        For an embedding where the model takes none.
+        For an embedding where the model takes none, and another mode.
     ImportError
         For words of the front end "both" or "embedding" without weights; names the extra.
     IoError
         For one that cannot be read.
     """
     text = fspath(path)
+    if mode not in _WANTED:
+        raise InvalidArgument(f'mode must be "speech", "gesture" or None, got {mode!r}')
     wanted = _WANTED[mode]
     refuse_recordings(text, wanted)
     kind = ModelFile.read(text).kind

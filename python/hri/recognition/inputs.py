@@ -88,7 +88,7 @@ def each_audio(
         when its turn comes.
     """
     given: object = values  # whatever the annotation says
-    if isinstance(given, str | PathLike | Audio) or (isinstance(given, np.ndarray) and given.ndim == 1):
+    if isinstance(given, str | PathLike | Audio) or _num_dimensions(given) == 1:
         raise InvalidArgument(f"{name} must be a sequence of utterances, got one: write [{name}], or call recognise")
     if sample_rate_hz is None or isinstance(sample_rate_hz, int | np.integer):
         rates: list[Any] = [sample_rate_hz] * len(values)
@@ -137,18 +137,37 @@ def each_clip(values: Sequence[ClipInput], name: str = "X") -> Iterator[list[Fra
         At once for one sign in place of several; as `as_frames`, naming the item, when its turn comes.
     """
     given: object = values  # whatever the annotation says
-    if isinstance(given, str | PathLike | Clip) or (isinstance(given, np.ndarray) and given.ndim <= 3):
+    if isinstance(given, str | PathLike | Clip) or _num_dimensions(given) in (0, 1, 2, 3):
         raise InvalidArgument(f"{name} must be a sequence of signs, got one: write [{name}], or call recognise")
     return (as_frames(value, f"{name}[{i}]") for i, value in enumerate(values))
 
 
 def as_texts(values: Iterable[object], name: str) -> list[str]:
-    """Labels or persons as text; InvalidArgument for one that UTF-8 cannot hold, as from the name of a file."""
-    texts = [str(value) for value in values]
-    for i, text in enumerate(texts):
-        if not text.isascii() and any("\ud800" <= character <= "\udfff" for character in text):
-            raise InvalidArgument(f"{name}[{i}] is {text!r}, which is not UTF-8")
-    return texts
+    """Labels or persons as text, integers written in digits.
+
+    Raises
+    ------
+    InvalidArgument
+        For a single text in place of several, for one that is neither text nor an integer (such as the NaN or None of a
+        table's empty cell), and for one that UTF-8 cannot hold, as from the name of a file; names the item.
+    """
+    if isinstance(values, str):
+        raise InvalidArgument(f"{name} must be a sequence of texts, got one: write [{name}]")
+    return [_as_text(value, f"{name}[{i}]") for i, value in enumerate(values)]
+
+
+def _as_text(value: object, name: str) -> str:
+    if isinstance(value, bool) or not isinstance(value, str | int | np.integer):
+        raise InvalidArgument(f"{name} must be text, got {value!r}")
+    text = str(value)
+    if not text.isascii() and any("\ud800" <= character <= "\udfff" for character in text):
+        raise InvalidArgument(f"{name} is {text!r}, which is not UTF-8")
+    return text
+
+
+def _num_dimensions(value: object) -> int | None:
+    """Of an array of samples or pictures; None for all else, such as an array of paths, which is what a list is."""
+    return value.ndim if isinstance(value, np.ndarray) and value.dtype.kind not in "OU" else None
 
 
 def _path_of(value: object) -> Path | None:

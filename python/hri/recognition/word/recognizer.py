@@ -7,26 +7,24 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from os import PathLike, fspath
 from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
-from hri.core.errors import FormatError, InvalidArgument
+from hri.core.errors import InvalidArgument
 from hri.core.suggest import did_you_mean
-from hri.io import ModelFile
 from hri.media import Audio, naming_file, naming_files
-from hri.recognition.base import Recognizer, best_labels, posteriors, share_right
+from hri.recognition.base import best_labels, posteriors, share_right
 from hri.recognition.decision import Decision
 from hri.recognition.held_out_report import HeldOutReport
 from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts, each_audio
 from hri.recognition.keywords import WordRecognizerKeywords
-from hri.recognition.loading import load_native
 from hri.recognition.quality import speech_snr_db
 from hri.recognition.word.embedding import SpeechEmbedding
 from hri.recognition.word.fillers import FillerWord, embedding_filler_words, filler_words
+from hri.recognition.word.with_embedding import RecognizerWithEmbedding
 
 _log = logging.getLogger(__name__)
 
@@ -47,7 +45,7 @@ class Utterance:
     decision: Decision
 
 
-class WordRecognizer(Recognizer):
+class WordRecognizer(RecognizerWithEmbedding):
     """Recognise one spoken word at a time.
 
     Parameters
@@ -76,12 +74,11 @@ class WordRecognizer(Recognizer):
     'seven'
     """
 
-    mode = "speech"
     _native_class = _native.WordRecognizer
     _options_class = _native.WordRecognizerOptions
+    _kind = "word_recognizer"
+    _front_end_field = "front_end"
     options: _native.WordRecognizerOptions
-    _embedding: SpeechEmbedding | None = None
-    """What was given to `fit` or `load`, which copies need too; None: of the weights that the extra installs."""
 
     def __init__(self, **options: Unpack[WordRecognizerKeywords]) -> None:
         super().__init__(**options)
@@ -106,7 +103,7 @@ class WordRecognizer(Recognizer):
         X : sequence of paths, Audio, or arrays of shape (num_samples,)
             Each as `recognise` takes it.
         y : sequence of str
-            The word spoken in each clip.
+            The word spoken in each clip; integers become their digits.
         sample_rate_hz : int or sequence of int, optional
             Of arrays: one rate for all, or one for each.
         groups : sequence of str, optional
@@ -144,27 +141,26 @@ class WordRecognizer(Recognizer):
         made_of = [""] * len(X) if recordings is None else as_texts(recordings, "recordings")
         if len(made_of) != len(X):
             raise InvalidArgument(f"X and recordings differ in length: {len(X)}, {len(made_of)}")
-        clips = as_audios(X, sample_rate_hz)
-        _log.info("training on %d utterances of %d words", len(clips), len(set(y)))
-        takes_embedding = _takes_embedding(self.options.front_end)
-        if embedding is not None and not takes_embedding:
-            raise InvalidArgument(f"front_end={self.options.front_end!r} takes no speech embedding")
-        if embedding_fillers and not takes_embedding:
+        labels = as_texts(y, "y")
+        native_embedding = self._native_embedding(embedding)
+        if embedding_fillers and native_embedding is None:
             raise InvalidArgument(f"front_end={self.options.front_end!r} takes no fillers for a speech embedding")
         if embedding_fillers is None:
-            takes_more = fillers is None and takes_embedding
+            takes_more = fillers is None and native_embedding is not None
             embedding_fillers = embedding_filler_words() if takes_more else ()
+        clips = as_audios(X, sample_rate_hz)
+        _log.info("training on %d utterances of %d words", len(clips), len(set(labels)))
         others = filler_words() if fillers is None else fillers
         with naming_files([clip.path for clip in clips], "X"):
             self._native = self._native_class.train(
                 [clip.samples for clip in clips],
                 [clip.sample_rate_hz for clip in clips],
-                as_texts(y, "y"),
+                labels,
                 speakers,
                 self.options,
                 progress,
                 *_as_lists(others),
-                _embedding_for(self.options.front_end, embedding),
+                native_embedding,
                 *_as_lists(embedding_fillers),
                 made_of,
             )
@@ -307,7 +303,7 @@ class WordRecognizer(Recognizer):
     def score(
         self, X: Sequence[AudioInput], y: Sequence[str], sample_rate_hz: int | Sequence[int] | None = None
     ) -> float:
-        """Share of clips whose best label is right, 0..1; labels that are not text are read as `fit` reads them."""
+        """Share of clips whose best label is right, 0..1; integers count as their digits, as in `fit`."""
         return share_right(self.predict(X, sample_rate_hz), y)
 
     @property
@@ -325,66 +321,8 @@ class WordRecognizer(Recognizer):
         """What training saw on people held out, of the words it had then; None where nothing could be held out."""
         return HeldOutReport.of(self._trained)
 
-    @classmethod
-    def load(cls, path: str | PathLike[str], *, embedding: SpeechEmbedding | None = None) -> WordRecognizer:
-        """Read a model that `save` wrote, in Python or C++.
-
-        Parameters
-        ----------
-        path : path
-        embedding : SpeechEmbedding, optional
-            For a model of the front end "both" or "embedding": of the weights that it was trained with, by default
-            those that the extra `embedding` installs.
-
-        Raises
-        ------
-        FormatError
-            For anything else, and for other weights than those of training.
-        InvalidArgument
-            For an embedding where the model is of the front end "cepstra".
-        ImportError
-            For a model of the front end "both" or "embedding" without weights; names the extra.
-        """
-        recognizer = cls._wrap(load_native(lambda file: _recognizer_in(file, embedding), path, "word_recognizer"))
-        recognizer._embedding = embedding
-        if embedding is not None and not _takes_embedding(recognizer.options.front_end):
-            raise InvalidArgument(
-                f"{fspath(path)}: front_end={recognizer.options.front_end!r} takes no speech embedding"
-            )
-        return recognizer
-
-    def _from_model_file(self, file: ModelFile) -> Any:
-        return _recognizer_in(file, self._embedding)
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {**super().__getstate__(), "embedding": self._embedding}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        rest = dict(state) if isinstance(state, dict) else {}
-        embedding = rest.pop("embedding", None)
-        if not isinstance(embedding, SpeechEmbedding | None):
-            raise FormatError(f"the state of {type(self).__name__} must have an embedding or None")
-        self._embedding = embedding
-        super().__setstate__(rest)
-
 
 def _as_lists(words: Sequence[FillerWord]) -> tuple[list[NDArray[np.float32]], list[int], list[str]]:
     """Samples, rates and labels."""
     samples = [np.ascontiguousarray(word.samples, dtype=np.float32) for word in words]
     return samples, [word.sample_rate_hz for word in words], [word.label for word in words]
-
-
-def _takes_embedding(front_end: str) -> bool:
-    return front_end in ("both", "embedding")
-
-
-def _embedding_for(front_end: str, given: SpeechEmbedding | None) -> _native.SpeechEmbedding | None:
-    """What training with this front end takes: `given`, or the installed one where there has to be one."""
-    if not _takes_embedding(front_end):
-        return None
-    return (SpeechEmbedding() if given is None else given)._native
-
-
-def _recognizer_in(file: ModelFile, embedding: SpeechEmbedding | None = None) -> _native.WordRecognizer:
-    front_end = file.metadata().get("front_end", "") if file.kind == "word_recognizer" else ""
-    return _native.WordRecognizer.from_model_file(file, _embedding_for(front_end, embedding))
