@@ -31,6 +31,7 @@ from hri.studies import (
     tables,
     tempo,
     training_size,
+    word_trimming,
 )
 from hri.studies.registry import Layout
 from hri.studies.sweeps import measured
@@ -46,6 +47,7 @@ def data_dir(tmp_path_factory: pytest.TempPathFactory, spoken: Path) -> Path:
     folder = tmp_path_factory.mktemp("data")
     (folder / "fsdd").mkdir()
     (folder / "fsdd" / "recordings").symlink_to(spoken)
+    (folder / "commands").symlink_to(spoken)
     (folder / "hindi_words").mkdir()
     for part in ("digits", "words"):
         (folder / "hindi_words" / part).symlink_to(spoken)
@@ -264,7 +266,6 @@ def test_distance_is_judged_row_by_row() -> None:
 
 
 def test_commands_of_groups_of_speakers(data_dir: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (data_dir / "commands").symlink_to(data_dir / "fsdd" / "recordings")
     monkeypatch.setattr(commands, "NUM_FOLDS", 3)
     result = run("commands", data_dir, front_end=["cepstra"])
     quiet, noisy = result["rows"]
@@ -274,6 +275,23 @@ def test_commands_of_groups_of_speakers(data_dir: Path, monkeypatch: pytest.Monk
     for row in result["rows"]:
         assert row["right_mean"] <= min(row["recognised_mean"], row["accuracy_mean"])
         assert 0 <= row["calibration_error_mean"] <= 1
+
+
+def test_what_every_speaker_loses_by_trimming(data_dir: Path) -> None:
+    result = run("word-trimming", data_dir, data=["fsdd"], front_end=["cepstra"])
+    rows = {(row["test"], row["clips"]): row for row in result["rows"]}
+    assert len(rows) == len(result["rows"]) == 3 * 2
+    for test in (commands.QUIET, commands.NOISY, word_trimming.QUIETER):
+        whole, trimmed = (rows[test, clips]["per_fold"] for clips in (word_trimming.WHOLE, word_trimming.TRIMMED))
+        lost = result["lost_by_speaker"][f"fsdd, cepstra, {test}"]
+        assert lost == pytest.approx({speaker: whole[speaker] - trimmed[speaker] for speaker in whole})
+    assert result["passed"] is all(lost <= 0.01 for of in result["lost_by_speaker"].values() for lost in of.values())
+
+
+def test_a_quieter_clip_is_one_of_16_bits() -> None:
+    clip = np.array([0.5, -0.25, 1 / 32768], np.float32)
+    quieter = word_trimming.quieter(clip, RATE_HZ, np.random.default_rng(0))
+    np.testing.assert_array_equal(quieter, np.array([1638, -819, 0], np.float32) / 32768)
 
 
 def test_fewer_takes_are_done_sooner_and_said(hri, data_dir: Path, tmp_path: Path) -> None:
