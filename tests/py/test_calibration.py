@@ -70,6 +70,31 @@ def test_what_cannot_be_binned_is_refused() -> None:
     for bins in (0, 10**9):
         with pytest.raises(InvalidArgument, match="num_bins"):
             reliability([0.5], [True], bins)
+    with pytest.raises(InvalidArgument, match=r"num_bins must be an integer, got 2\.5"):
+        reliability([0.5], [True], 2.5)
+
+
+def test_truth_values_and_numbers_of_tables_are_read() -> None:
+    expected = reliability([0.9, 0.6], [True, False])
+    objects = np.array([True, False], object), np.array([0.9, 0.6], object)
+    for confidence, right in (([0.9, 0.6], [1, 0]), ([0.9, 0.6], np.array([1, 0], "u1")), objects[::-1]):
+        assert reliability(confidence, right) == expected
+
+
+def test_what_is_no_truth_value_or_no_number_is_refused() -> None:
+    nan = float("nan")
+    for wrong in (["yes", "no"], ["True", "False"], [nan, 1.0], [1.0, 0.0], [None, True], [True, nan], [0, 2], [-1, 1]):
+        for given in (wrong, np.array(wrong, object)):
+            with pytest.raises(InvalidArgument, match="right must be True or False for each decision"):
+                reliability([0.5, 0.6], given)
+    for wrong in (["high", "low"], ["0.5", "0.6"], [0.5, "0.6"], [0.5, 0.6j], [0.5, object()]):
+        for given in (wrong, np.array(wrong, object)):
+            with pytest.raises(InvalidArgument, match="confidence must be numbers"):
+                reliability(given, [True, False])
+    with pytest.raises(InvalidArgument, match=r"0\.\.1"):
+        reliability([0.5, None], [True, False])
+    with pytest.raises(InvalidArgument, match="confidence needs one value for each decision"):
+        reliability([[0.5], [0.5, 0.6]], [True, False])
 
 
 def test_the_best_label_counts_rejected_or_not_and_silence_does_not(tmp_path: Path) -> None:

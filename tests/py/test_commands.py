@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
+import copy
 import json
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +14,7 @@ import pytest
 
 from conftest import PERSONS, RATE_HZ, tone_word
 from hri import CommandRecognizer, Decision, Session
-from hri.core.errors import InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument
 from hri.datasets import Dataset
 from hri.fusion import FusionOptions
 from hri.io import write_wav_pcm16
@@ -94,6 +96,18 @@ def test_a_decision_carries_the_slots_of_its_command(commands: CommandRecognizer
     assert json.loads(json.dumps(found.to_dict()))["slots"]["side"] == "right"
     assert commands.recognise(np.zeros(RATE_HZ, np.float32), RATE_HZ).status == "no_input"
     assert len({found, Decision("speech", "a", "recognised", 1.0)}) == 2
+
+
+def test_commands_are_copied_and_pickled(words: ConnectedWordRecognizer) -> None:
+    commands = CommandRecognizer(words, Grammar.parse(GRAMMAR, "tones.jsgf"), min_confidence=0.8)
+    said = tones("2 1")
+    for again in (pickle.loads(pickle.dumps(commands)), copy.deepcopy(commands), copy.copy(commands)):
+        assert again.commands_ == commands.commands_ and again.min_confidence == 0.8
+        assert again.recognise(said, RATE_HZ) == commands.recognise(said, RATE_HZ)
+        assert again.recognise_early(said, ["2 1"], RATE_HZ) == commands.recognise_early(said, ["2 1"], RATE_HZ)
+    for state in (None, {}, commands.__getstate__() | {"grammar": 1}):
+        with pytest.raises(FormatError, match="the state of CommandRecognizer must have"):
+            CommandRecognizer.__new__(CommandRecognizer).__setstate__(state)
 
 
 def test_stop_does_not_wait_for_the_pause_that_ends_a_command(commands: CommandRecognizer) -> None:

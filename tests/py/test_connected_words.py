@@ -60,6 +60,10 @@ def test_words_and_their_times_are_found(words: ConnectedWordRecognizer, sentenc
     assert words.recognise(sentence, RATE_HZ, num_words=4).labels == found.labels
     assert len(words.recognise(sentence, RATE_HZ, num_words=2).words) == 2
     assert words.count_errors([sentence], [["1", "2", "1", "1"]], RATE_HZ).substitutions == 1
+    assert words.count_errors([sentence], [[1, 2, 2, 1]], RATE_HZ).rate == 0
+    for wrong, message in (([["1"], ["2"]], "X and y differ in length"), ([["1", None]], r"y\[0\]\[1\] must be text")):
+        with pytest.raises(InvalidArgument, match=message):
+            words.count_errors(["no such file.wav"], wrong)
     assert json.loads(json.dumps(found.to_dict()))["words"][0]["label"] == "1"
     assert words.recognise(np.zeros(RATE_HZ, np.float32), RATE_HZ).words == ()
 

@@ -5,8 +5,11 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 from hri.core.errors import FormatError, InvalidArgument, IoError
@@ -210,6 +213,30 @@ def test_select_keeps_labels_and_persons(tmp_path: Path) -> None:
         dataset.select(labels=["7"])
 
 
+@pytest.mark.parametrize("as_given", [tuple, iter, np.array, dict.fromkeys])
+def test_select_reads_any_sequence_once(tmp_path: Path, as_given: Callable[[list[str]], Any]) -> None:
+    dataset = Dataset.load(touch(tmp_path, "1_theo_0.wav", "2_theo_0.wav", "12_ann_0.wav"))
+    assert dataset.select(labels=as_given(["2", "12"])).labels == ["2", "12"]
+    assert dataset.select(persons=as_given(["theo"])).labels == ["1", "2"]
+    assert len(dataset.select(labels=np.array([], str))) == 0
+    assert dataset.select(labels=[1]).labels == dataset.select(labels=np.array([1])).labels == ["1"]
+
+
+@pytest.mark.parametrize("what", ["labels", "persons"])
+def test_select_refuses_what_names_nothing(tmp_path: Path, what: str) -> None:
+    dataset = Dataset.load(touch(tmp_path, "1/1/0.wav", "2/2/0.wav"), pattern="{label}/{person}/{take}")
+    for wrong, complaint in (
+        ("12", r"must be a sequence of texts, got one: write \['12'\]"),
+        (b"1", "must be a sequence of texts"),
+        (1, "must be a sequence of texts, got 1"),
+        ([None], r"\[0\] must be text, got None"),
+        (["1", float("nan")], r"\[1\] must be text, got nan"),
+        ([True], r"\[0\] must be text, got True"),
+    ):
+        with pytest.raises(InvalidArgument, match=f"^{what}.*{complaint}"):
+            dataset.select(**{what: wrong})
+
+
 MANIFEST = """
 kind = "speech"
 [[samples]]
@@ -349,6 +376,14 @@ def test_folds_that_cannot_be_are_refused(tmp_path: Path) -> None:
         Dataset.load(tmp_path).folds_by_person()
     with pytest.raises(InvalidArgument, match="samples of label 'go'"):
         nameless.folds_stratified(3)
+    whole = people(tmp_path / "y", 3)
+    for split in (whole.folds_by_person, whole.folds_stratified):
+        with pytest.raises(InvalidArgument, match=r"^num_folds must be an integer, got 2\.0"):
+            split(2.0)
+        with pytest.raises(InvalidArgument, match=r"^seed is -1, must be 0 or more"):
+            split(2, seed=-1)
+    with pytest.raises(InvalidArgument, match=r"condition .* is not known"):
+        whole.folds_by_condition(["background"])
 
 
 def test_stratified_folds_share_every_label(tmp_path: Path) -> None:

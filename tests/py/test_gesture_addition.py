@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import logging
 from copy import copy
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from drawn_hands import SIDE_PX, picture, stills
 from hri import GestureRecognizer
 from hri.core.errors import InvalidArgument
 from hri.media import write_image
+from hri.vision import HandFinder
 
 SHAPES = {"fist": 0, "palm": 1, "point": 2}
 
@@ -62,6 +64,61 @@ def test_errors_leave_the_recogniser_as_it_was(signs: GestureRecognizer) -> None
     with pytest.raises(InvalidArgument, match="must be a sequence of signs"):
         signs.add_gesture("palm", "palm.jpg")
     assert signs.to_model_file().to_bytes() == before
+
+
+@pytest.mark.parametrize("label", [None, 7.5, True])
+def test_a_label_that_is_no_text_is_named(signs: GestureRecognizer, label: object) -> None:
+    with pytest.raises(InvalidArgument, match=f"^label must be text, got {label}"):
+        copy(signs).add_gesture(label, [stills("tall", 1)])
+    with pytest.raises(InvalidArgument, match=f"^label must be text, got {label}"):
+        copy(signs).add_gesture_features(label, [rows("palm", 20)])
+
+
+def test_options_set_after_training_count_for_the_next_one_alone() -> None:
+    clips = [stills(sign, seed) for seed in range(4) for sign in ("flat", "tall")]
+    signs = GestureRecognizer(model="rbf").fit(clips, [0, 1] * 4)
+    new = [np.rot90(stills("tall", 30 + seed)[0], k=1)[None] for seed in range(3)]
+    changed = copy(signs).set_params(features__crop_px=16, min_quality=0.9, source="landmarks", use_faces=True)
+    expected = copy(signs).add_gesture(7, new)
+    assert list(expected.classes_) == ["0", "1", "7"]
+    assert changed.face_finder() is None
+    np.testing.assert_array_equal(changed.features(clips[0]), signs.features(clips[0]))
+    np.testing.assert_array_equal(changed.features_and_quality(clips[0])[0], signs.features(clips[0]))
+    hands = [HandFinder().find(clips[0])[0]]
+    np.testing.assert_array_equal(changed.observation_features(hands), signs.observation_features(hands))
+    assert changed.add_gesture(7, new).to_model_file().to_bytes() == expected.to_model_file().to_bytes()
+
+    other = GestureRecognizer(model="rbf", features={"crop_px": 16}, min_quality=0.0)
+    anew = copy(signs).set_params(features__crop_px=16, min_quality=0.0).fit(clips, [0, 1] * 4)
+    assert anew.to_model_file().to_bytes() == other.fit(clips, [0, 1] * 4).to_model_file().to_bytes()
+    np.testing.assert_array_equal(
+        changed.untrained().set_params(source="silhouettes", use_faces=False).features(clips[0]),
+        other.set_params(min_quality=0.9).untrained().features(clips[0]),
+    )
+
+
+def test_training_names_the_clips_without_a_hand(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    wall = np.full((SIDE_PX, SIDE_PX, 3), 120, np.uint8)
+    write_image(tmp_path / "wall.png", wall)
+    clips = [stills(sign, seed) for seed in range(4) for sign in ("flat", "tall")]
+    labels = ["flat", "tall"] * 4
+    with caplog.at_level(logging.WARNING, "hri"):
+        GestureRecognizer(model="rbf").fit(clips, labels)
+        assert not caplog.records
+        GestureRecognizer(model="rbf").fit([*clips, tmp_path / "wall.png", *[[wall]] * 5], [*labels, *["flat"] * 6])
+    (record,) = caplog.records
+    assert (
+        "6 of 14: X[8] (" in record.getMessage() and "wall.png), X[9], X[10], X[11], X[12], ..." in record.getMessage()
+    )
+
+
+@pytest.mark.parametrize(
+    ("groups", "message"),
+    [(["ann"], "X, y and groups differ in length: 2, 2, 1"), (["ann", None], r"groups\[1\] must be text, got None")],
+)
+def test_wrong_groups_are_refused_before_any_clip_is_read(groups: list[str], message: str) -> None:
+    with pytest.raises(InvalidArgument, match=message):
+        GestureRecognizer().fit(["no such file.png"] * 2, ["flat", "tall"], groups=groups)
 
 
 def test_the_command_line_adds_a_gesture(hri, tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable
+from copy import copy
 from pathlib import Path
 from typing import Any
 
@@ -60,7 +61,7 @@ def test_one_recording_is_in_memory_at_a_time(
     noted(inputs, "read_frames", "read")
     noted(hri.WordRecognizer, "recognise", "done")
     noted(hri.GestureRecognizer, "recognise", "done")
-    noted(hri.GestureRecognizer, "features", "done")
+    noted(hri.GestureRecognizer, "_features", "done")
     clips = sorted(signed.glob("*/*"))[:3]
     labels = ["a", "b", "b"]
     for run in (
@@ -207,6 +208,54 @@ def test_labels_may_be_integers(words: hri.WordRecognizer, spoken: Path) -> None
     trained = words.untrained().fit(clips, numbers)  # type: ignore[arg-type]
     assert list(trained.classes_) == sorted({str(number) for number in numbers})
     assert trained.score(clips, numbers) == words.score(clips, [str(number) for number in numbers])  # type: ignore[arg-type]
+
+
+def test_labels_that_fit_refuses_are_not_scored(
+    words: hri.WordRecognizer, signs: hri.GestureRecognizer, spoken: Path, signed: Path
+) -> None:
+    clips = sorted(spoken.glob("*.wav"))[:2]
+    pictures = [sample.path for sample in hri.Dataset.load(signed, "gesture")][:2]
+    for recognizer, given in ((words, clips), (signs, pictures)):
+        with pytest.raises(InvalidArgument, match=r"^y\[0\] must be text, got 1\.0"):
+            recognizer.score(given, [1.0, 2.0])  # type: ignore[list-item]
+        with pytest.raises(InvalidArgument, match="X and y differ in length: 2, 1"):
+            recognizer.score(given, ["1"])
+
+
+def test_a_word_may_be_added_and_removed_by_its_number(words: hri.WordRecognizer, spoken: Path) -> None:
+    more = copy(words).add_word(7, sorted(spoken.glob("1_*.wav"))[:3])  # type: ignore[arg-type]
+    assert set(more.classes_) - set(words.classes_) == {"7"}
+    assert list(more.remove_word(7).classes_) == list(words.classes_)  # type: ignore[arg-type]
+    with pytest.raises(InvalidArgument, match=r"^label must be text, got None"):
+        more.add_word(None, [])  # type: ignore[arg-type]
+    with pytest.raises(InvalidArgument, match="no word '9'"):
+        hri.SpeakerAdapter(words).learn(sorted(spoken.glob("*.wav"))[0], 9)  # type: ignore[arg-type]
+
+
+def test_what_is_no_sequence_is_said_to_be_none(words: hri.WordRecognizer, spoken: Path) -> None:
+    clips = sorted(spoken.glob("*.wav"))[:2]
+    for X, y, groups, message in (
+        (iter(clips), ["1", "2"], None, r"^X must be a sequence, got .*: write list\(X\)"),
+        (clips, None, None, "^y must be a sequence of texts, got None$"),
+        (clips, ["1", "2"], 1, "^groups must be a sequence of texts, got 1$"),
+        (clips, "12", None, "^y must be a sequence of texts, got one"),
+    ):
+        with pytest.raises(InvalidArgument, match=message):
+            words.untrained().fit(X, y, groups=groups)  # type: ignore[arg-type]
+    with pytest.raises(InvalidArgument, match=r"^X must be a sequence, got"):
+        words.predict(iter(clips))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("rate", [16000.0, True, 0, -1, 2**40])
+def test_what_is_no_rate_is_refused(words: hri.WordRecognizer, rate: Any) -> None:
+    samples = np.zeros(800, np.float32)
+    for run in (
+        lambda: words.recognise(samples, rate),
+        lambda: words.predict([samples], rate),
+        lambda: words.recognise(Audio(samples, rate)),
+    ):
+        with pytest.raises(InvalidArgument, match=r"must be an integer|is no rate"):
+            run()
 
 
 def test_a_model_is_of_a_known_mode(tmp_path: Path, words: hri.WordRecognizer) -> None:

@@ -5,13 +5,14 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from os import PathLike
 from pathlib import Path
 
 from hri.core.display import count, html_table, short_path, summary
 from hri.core.errors import FormatError, InvalidArgument, IoError
+from hri.core.labels import as_texts
 from hri.core.suggest import did_you_mean
 from hri.datasets.detection import detect_kind, detect_pattern, is_noise, media_files
 from hri.datasets.folds import Fold, split_by_person, split_by_value, split_stratified
@@ -164,22 +165,23 @@ class Dataset:
             for name in sorted(names, key=natural_key)
         }
 
-    def select(self, labels: Collection[str] | None = None, persons: Collection[str] | None = None) -> Dataset:
-        """The part with these labels and these persons (None: all).
+    def select(self, labels: Iterable[str | int] | None = None, persons: Iterable[str | int] | None = None) -> Dataset:
+        """The part with these labels and these persons (None: all); integers stand for their digits.
 
         Raises
         ------
         InvalidArgument
-            For a label or person that does not occur.
+            For a label or person that does not occur or is no text, and for a single text in place of a sequence.
         """
-        _require_members(labels, self.labels, "label")
-        _require_members(persons, self.persons, "person")
+        wanted_labels = _members(labels, self.labels, "label")
+        wanted_persons = _members(persons, self.persons, "person")
         return replace(
             self,
             samples=[
                 sample
                 for sample in self.samples
-                if (labels is None or sample.label in labels) and (persons is None or sample.person in persons)
+                if (wanted_labels is None or sample.label in wanted_labels)
+                and (wanted_persons is None or sample.person in wanted_persons)
             ],
         )
 
@@ -208,7 +210,7 @@ class Dataset:
             For a condition that not every sample has, or that has one value only.
         """
         known = self.conditions
-        if name not in known:
+        if not isinstance(name, str) or name not in known:
             raise InvalidArgument(f"condition {name!r} is not known of every sample; known are {sorted(known)}")
         return split_by_value(name, [sample.conditions[name] for sample in self.samples])
 
@@ -274,7 +276,11 @@ def _listed_samples(root: Path, manifest: Manifest, manifest_path: Path) -> list
     return samples
 
 
-def _require_members(wanted: Collection[str] | None, known: list[str], what: str) -> None:
-    for name in wanted or ():
+def _members(wanted: Iterable[str | int] | None, known: list[str], what: str) -> set[str] | None:
+    if wanted is None:
+        return None
+    names = as_texts(wanted, f"{what}s")  # read once: it may be a generator
+    for name in names:
         if name not in known:
             raise InvalidArgument(f"no {what} {name!r} in this data set; {did_you_mean(name, known, 'it has')}")
+    return set(names)

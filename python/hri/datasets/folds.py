@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hri.core.checks import check_integer
 from hri.core.display import short_repr
 from hri.core.errors import InvalidArgument
 
@@ -41,13 +42,14 @@ def split_by_person(persons: Sequence[str], num_folds: int | None, seed: int) ->
     num_folds : int or None
         2 up to the number of persons; None holds out one person at a time.
     seed : int
-        Orders the persons before they are dealt into folds.
+        0 or more; orders the persons before they are dealt into folds.
 
     Raises
     ------
     InvalidArgument
-        For a sample without a person, fewer than two persons, or `num_folds` out of range.
+        For a sample without a person, fewer than two persons, `num_folds` out of range, or what is not an integer.
     """
+    _check_integers(num_folds, seed)
     for index, person in enumerate(persons):
         if not person:
             raise InvalidArgument(f"sample {index} has no person, so it cannot be split by person")
@@ -83,8 +85,10 @@ def split_stratified(labels: Sequence[str], num_folds: int, seed: int) -> list[F
     Raises
     ------
     InvalidArgument
-        When `num_folds` is below 2, or above the number of samples of some label (which is named).
+        When `num_folds` is below 2, or above the number of samples of some label (which is named), a negative seed, or
+        what is not an integer.
     """
+    _check_integers(num_folds, seed)
     fold_of = np.empty(len(labels), dtype=int)
     rng = np.random.default_rng(seed)
     next_fold = 0
@@ -102,6 +106,12 @@ def split_stratified(labels: Sequence[str], num_folds: int, seed: int) -> list[F
         )
         for fold in range(num_folds)
     ]
+
+
+def _check_integers(num_folds: int | None, seed: int) -> None:
+    if num_folds is not None:
+        check_integer(num_folds, "num_folds")
+    check_integer(seed, "seed", 0)
 
 
 def _group_name(group: Sequence[str], part: int, num_parts: int) -> str:

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hri.core.display import count, summary
+from hri.core.checks import check_integer
+from hri.core.display import count, shown, summary
 from hri.core.errors import InvalidArgument
 from hri.core.plotting import new_axes, save_figure
 
@@ -117,14 +118,15 @@ def reliability(confidence: ArrayLike, right: ArrayLike, num_bins: int = NUM_BIN
     confidence : array-like of float, shape (num_decisions,)
         Of the class that was decided for, 0..1.
     right : array-like of bool, shape (num_decisions,)
-        Whether that class is the true one.
+        Whether that class is the true one; integers 0 and 1 will do.
     num_bins : int
         1..1000.
 
     Raises
     ------
     InvalidArgument
-        For no decision, lengths that differ, confidences outside 0..1 or NaN, or a number of bins out of range.
+        For no decision, lengths that differ, confidences that are no numbers, outside 0..1 or NaN, `right` of anything
+        but truth values, or a number of bins out of range.
 
     Examples
     --------
@@ -132,7 +134,8 @@ def reliability(confidence: ArrayLike, right: ArrayLike, num_bins: int = NUM_BIN
     >>> print(f"{found.expected_error:.3f}")
     0.100
     """
-    values, truths = np.asarray(confidence, float), np.asarray(right, bool)
+    check_integer(num_bins, "num_bins")
+    values, truths = _as_numbers(confidence), _as_truths(right)
     if values.ndim != 1 or values.shape != truths.shape or not values.size:
         raise InvalidArgument(
             f"confidence and right need one value for each decision, got shapes {values.shape} and {truths.shape}"
@@ -150,3 +153,30 @@ def reliability(confidence: ArrayLike, right: ArrayLike, num_bins: int = NUM_BIN
         means = (float(values[here].mean()), float(truths[here].mean())) if found else (None, None)
         bins.append(ReliabilityBin(float(edges[place]), float(edges[place + 1]), found, *means))
     return Reliability(tuple(bins))
+
+
+def _as_numbers(confidence: ArrayLike) -> NDArray[np.float64]:
+    array = _as_array(confidence, "confidence")
+    try:
+        if array.dtype.kind not in "biufO":  # text would be read as a number
+            raise TypeError(f"got {array.dtype}")
+        return np.asarray(array, float)
+    except (TypeError, ValueError) as error:
+        raise InvalidArgument(f"confidence must be numbers: {error}") from error
+
+
+def _as_truths(right: ArrayLike) -> NDArray[np.bool_]:
+    array = _as_array(right, "right")
+    # Text, NaN and None would all count as True or False.
+    if array.size and not (array.dtype.kind == "b" or (array.dtype.kind in "iu" and np.isin(array, (0, 1)).all())):
+        raise InvalidArgument(f"right must be True or False for each decision, got {shown(array.ravel().tolist())}")
+    return np.asarray(array, bool)
+
+
+def _as_array(values: ArrayLike, name: str) -> NDArray[Any]:
+    """Of the type that its items have: columns of tables come as objects."""
+    try:
+        array = np.asarray(values)
+        return np.array(array.tolist()) if array.dtype.kind == "O" else array
+    except (TypeError, ValueError) as error:  # lists of different lengths
+        raise InvalidArgument(f"{name} needs one value for each decision: {error}") from error

@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.checks import check_number
 from hri.core.errors import InvalidArgument
 from hri.core.optional import import_opencv
 
@@ -21,6 +22,11 @@ FrontEnd = Callable[[Samples, int], tuple[Samples, int]]
 """What is done to every clip, of training and test, before the recogniser gets it: gives samples and their rate."""
 
 
+def check_exposure(factor: float) -> None:
+    """Refuse a factor on pixels that is no number of 0.05..20. Raises InvalidArgument."""
+    check_number(factor, "exposure", 0.05, 20)
+
+
 def expose(frames: Sequence[NDArray[np.uint8]], factor: float) -> list[NDArray[np.uint8]]:
     """Frames with every pixel times `factor` (0.05..20), clipped at white.
 
@@ -29,8 +35,7 @@ def expose(frames: Sequence[NDArray[np.uint8]], factor: float) -> list[NDArray[n
     InvalidArgument
         For a factor out of range.
     """
-    if not 0.05 <= factor <= 20:
-        raise InvalidArgument(f"exposure must lie in 0.05..20, got {factor}")
+    check_exposure(factor)
     return _mapped(frames, np.clip(np.arange(256, dtype=np.float32) * np.float32(factor), 0, 255).astype(np.uint8))
 
 

@@ -11,17 +11,18 @@ from typing import Any
 
 import numpy as np
 
+from hri.core.checks import check_integer
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset, Fold
-from hri.evaluation.conditions import expose
+from hri.evaluation.arguments import Recognizer, check_dataset, check_not_empty, factory_of
+from hri.evaluation.conditions import check_exposure, expose
 from hri.evaluation.noise import AddNoise, check_noises, check_snr_db
 from hri.evaluation.result import EvaluationItem, EvaluationResult, FoldResult
 from hri.evaluation.speech import SpeechRunner, check_max_folds
 from hri.media import read_frames
-from hri.recognition import GestureRecognizer, SpeechEmbedding, WordRecognizer
+from hri.recognition import SpeechEmbedding
 
 Progress = Callable[[str, int, int], None]
-Recognizer = WordRecognizer | GestureRecognizer
 _NUM_FOLDS = 5
 """Where one person at a time would be too many, or persons are not known."""
 
@@ -49,6 +50,7 @@ def cross_validate(
     dataset : Dataset
     make_recognizer : callable or recogniser
         Gives a new, untrained recogniser for every fold: a class, a function, or a recogniser whose options are taken.
+        One more is made at the start, to see what it is.
     num_folds : int, optional
         Folds by person; None holds out one person at a time (for gestures with more than 10 persons: 5 folds). Where
         persons are not known, folds are stratified by label, and the result says so; None then makes 5, or as many as
@@ -61,7 +63,7 @@ def cross_validate(
         A condition that the data set knows of every recording, such as "background": one of its values at a time is
         held out, instead of persons.
     seed : int
-        Of folds, of the persons drawn, and of noise.
+        0 or more; of folds, of the persons drawn, and of noise.
     noise, snr_db : str and float, optional
         Added to the test clips: see `make_noise` and `mix_noise`.
     train_noise : bool
@@ -77,11 +79,17 @@ def cross_validate(
     Raises
     ------
     InvalidArgument
-        For arguments out of range or that exclude each other, a noise that is none or silent, or another recogniser
-        than one of the data set's kind; before anything is read or trained.
+        For arguments of another type, out of range or that exclude each other, a data set without recordings, a noise
+        that is none or silent, or another recogniser than one of words or gestures, as the data set's kind is; before
+        anything is read or trained.
     """
-    make = _factory(make_recognizer, dataset.kind)
+    check_dataset(dataset, "dataset")
+    check_not_empty(dataset, "dataset")
+    make = factory_of(make_recognizer, dataset.kind, embedding)
     check_max_folds(max_folds)
+    for value, name in ((num_folds, "num_folds"), (train_persons, "train_persons")):
+        if value is not None:
+            check_integer(value, name)
     conditions = _conditions(dataset.kind, seed, noise, snr_db, train_noise, exposure)
     if leave_out is not None:
         if num_folds is not None or train_persons is not None:
@@ -130,9 +138,13 @@ def evaluate_split(
     InvalidArgument
         When the kinds differ, the test set has a label that was not trained, and as `cross_validate`.
     """
-    make = _factory(make_recognizer, train.kind)
+    check_dataset(train, "train")
+    check_dataset(test, "test")
+    make = factory_of(make_recognizer, train.kind, embedding)
     if train.kind != test.kind:
         raise InvalidArgument(f"train is {train.kind}, test is {test.kind}")
+    check_not_empty(train, "train")
+    check_not_empty(test, "test")
     unknown = sorted(set(test.labels) - set(train.labels))
     if unknown:
         raise InvalidArgument(f"test has labels that train has not: {', '.join(unknown)}")
@@ -142,21 +154,6 @@ def evaluate_split(
     tested = _runner(both, make, conditions, embedding, progress)(fold)
     items = tuple(replace(item, index=item.index - len(train)) for item in tested.items)
     return EvaluationResult(train.labels, [replace(tested, items=items)], conditions)
-
-
-def _factory(recognizer: Callable[[], Recognizer] | Recognizer, kind: str) -> Callable[[], Recognizer]:
-    """Makes untrained recognisers with the options of `recognizer`, if it is one."""
-    mode = getattr(recognizer, "mode", kind)
-    if mode != kind:
-        raise InvalidArgument(f"the data set is for {kind}, the recogniser is for {mode}")
-    if isinstance(recognizer, WordRecognizer | GestureRecognizer):
-        return recognizer.untrained().untrained  # of a copy, whose options stay as they are now
-    if not callable(recognizer):
-        raise InvalidArgument(
-            "make_recognizer must be a WordRecognizer, a GestureRecognizer, or a class or function that makes one, "
-            f"got {type(recognizer).__name__}"
-        )
-    return recognizer
 
 
 def _default_folds(dataset: Dataset) -> int:
@@ -178,6 +175,7 @@ def _with_fewer_persons(fold: Fold, dataset: Dataset, num_persons: int, seed: in
 def _conditions(
     kind: str, seed: int, noise: str | None, snr_db: float | None, train_noise: bool, exposure: float | None
 ) -> dict[str, Any]:
+    check_integer(seed, "seed", 0)
     if (noise is None) != (snr_db is None):
         raise InvalidArgument("noise and snr_db go together")
     if train_noise and noise is None:
@@ -190,6 +188,8 @@ def _conditions(
     if noise is not None and snr_db is not None:
         check_noises([noise], ("first", "second") if train_noise else ("all",))
         check_snr_db(snr_db)
+    if exposure is not None:
+        check_exposure(exposure)
     return {
         "seed": seed,
         "noise": noise,

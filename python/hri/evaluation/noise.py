@@ -7,11 +7,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core.checks import check_number
 from hri.core.errors import InvalidArgument
 from hri.media import read_audio
 from hri.signal import resample
@@ -51,6 +53,8 @@ def check_noises(noises: Sequence[str], parts: Sequence[str] = ("all",)) -> None
     for name in noises:
         if name in SYNTHESISED:
             continue
+        if not isinstance(name, str | PathLike):
+            raise InvalidArgument(f"noise must be a name or a file, got {name!r}")
         if not Path(name).is_file():
             raise InvalidArgument(f"noise {name} is neither {' nor '.join(SYNTHESISED)} nor a file")
         samples = read_audio(name).samples
@@ -61,9 +65,8 @@ def check_noises(noises: Sequence[str], parts: Sequence[str] = ("all",)) -> None
 
 
 def check_snr_db(snr_db: float) -> None:
-    """Refuse a ratio of speech to noise outside -30..60 dB. Raises InvalidArgument."""
-    if not _MIN_SNR_DB <= snr_db <= _MAX_SNR_DB:
-        raise InvalidArgument(f"snr_db must lie in {_MIN_SNR_DB}..{_MAX_SNR_DB}, got {snr_db}")
+    """Refuse a ratio of speech to noise that is no number of -30..60 dB. Raises InvalidArgument."""
+    check_number(snr_db, "snr_db", _MIN_SNR_DB, _MAX_SNR_DB)
 
 
 def make_noise(

@@ -10,8 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from hri.core.checks import check_integer
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset, Fold
+from hri.evaluation.arguments import check_dataset
 from hri.evaluation.conditions import Condition, FrontEnd, Samples
 from hri.evaluation.result import EvaluationItem, EvaluationResult, FoldResult
 from hri.media import naming_file, naming_files, read_audio
@@ -28,8 +30,8 @@ def adapting(test: str) -> str:
 
 def check_max_folds(max_folds: int | None) -> None:
     """Refuse to run no fold, or folds counted from the end. Raises InvalidArgument."""
-    if max_folds is not None and max_folds < 1:
-        raise InvalidArgument(f"max_folds is {max_folds}, must be 1 or more")
+    if max_folds is not None:
+        check_integer(max_folds, "max_folds", 1)
 
 
 class SpeechRunner:
@@ -185,9 +187,10 @@ def evaluate_conditions(
     Raises
     ------
     InvalidArgument
-        For recordings without persons, fewer than two persons, `max_folds` below 1, or `adapt` with several persons in
-        a fold.
+        For what is no data set, recordings without persons, fewer than two persons, folds or a seed that are no
+        integers or out of range, or `adapt` with several persons in a fold.
     """
+    check_dataset(dataset, "dataset")
     check_max_folds(max_folds)
     say = progress or (lambda what, done, total: None)
     folds = dataset.folds_by_person(num_folds, seed)[:max_folds]

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from hri.core.display import short_list, summary
 from hri.core.errors import FormatError, InvalidArgument
 from hri.core.estimator import flat_params, not_fitted, replaced_params
+from hri.core.labels import as_texts
 from hri.core.sklearn_tags import make_tags
 from hri.io import ModelFile
 from hri.recognition.decision import Decision
@@ -174,9 +175,16 @@ def posteriors(decisions: Sequence[Decision], classes: NDArray[np.str_]) -> NDAr
 
 
 def share_right(predicted: NDArray[np.str_], y: Sequence[str]) -> float:
-    """Share of labels that are those of `y`, 0..1. Raises InvalidArgument for lengths that differ, and for none."""
-    if len(predicted) != len(y):
-        raise InvalidArgument(f"X and y differ in length: {len(predicted)}, {len(y)}")
-    if not len(predicted):
+    """Share of labels that are those of `y`, 0..1.
+
+    Raises
+    ------
+    InvalidArgument
+        For lengths that differ, none at all, and labels that `fit` would refuse.
+    """
+    truths = as_texts(y, "y")
+    if len(predicted) != len(truths):
+        raise InvalidArgument(f"X and y differ in length: {len(predicted)}, {len(truths)}")
+    if not truths:
         raise InvalidArgument("score needs one item or more")
-    return float(np.mean(predicted == np.asarray([str(label) for label in y])))
+    return float(np.mean(predicted == np.asarray(truths)))

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hri.core.errors import InvalidArgument
+from hri.core.labels import as_texts
 from hri.media import Audio, Clip, read_audio, read_frames
 
 Samples = NDArray[np.float32]
@@ -54,6 +55,7 @@ def as_audio(value: AudioInput, sample_rate_hz: int | None, name: str = "audio")
         As `read_audio`.
     """
     if isinstance(value, Audio):
+        require_rate(value.sample_rate_hz, f"the rate of {name}")
         if sample_rate_hz not in (None, value.sample_rate_hz):
             raise InvalidArgument(f"sample_rate_hz is {sample_rate_hz}, but {name} has {value.sample_rate_hz} Hz")
         return value
@@ -65,10 +67,16 @@ def as_audio(value: AudioInput, sample_rate_hz: int | None, name: str = "audio")
     samples, notes = _as_samples(value, name)
     if sample_rate_hz is None:
         raise InvalidArgument(f"{name} is an array, whose rate is not known: give sample_rate_hz, such as 16000")
-    rate: object = sample_rate_hz
+    return Audio(samples, require_rate(sample_rate_hz), notes)
+
+
+def require_rate(rate: object, name: str = "sample_rate_hz") -> int:
+    """A sample rate as an int. Raises InvalidArgument for anything else than an integer that 32 bits hold."""
     if isinstance(rate, bool) or not isinstance(rate, int | np.integer):
-        raise InvalidArgument(f"sample_rate_hz must be an integer, got {rate!r}")
-    return Audio(samples, int(rate), notes)
+        raise InvalidArgument(f"{name} must be an integer, got {rate!r}")
+    if not 0 < rate <= np.iinfo(np.int32).max:
+        raise InvalidArgument(f"{name} is {rate}, which is no rate")
+    return int(rate)
 
 
 def as_audios(values: Sequence[AudioInput], sample_rate_hz: int | Sequence[int] | None, name: str = "X") -> list[Audio]:
@@ -90,10 +98,11 @@ def each_audio(
     given: object = values  # whatever the annotation says
     if isinstance(given, str | PathLike | Audio) or _num_dimensions(given) == 1:
         raise InvalidArgument(f"{name} must be a sequence of utterances, got one: write [{name}], or call recognise")
-    if sample_rate_hz is None or isinstance(sample_rate_hz, int | np.integer):
+    require_sequence(values, name)
+    if sample_rate_hz is None or np.ndim(sample_rate_hz) == 0:
         rates: list[Any] = [sample_rate_hz] * len(values)
     else:
-        rates = list(sample_rate_hz)
+        rates = list(sample_rate_hz)  # type: ignore[arg-type]
     if len(rates) != len(values):
         raise InvalidArgument(f"{name} and sample_rate_hz differ in length: {len(values)}, {len(rates)}")
     return (as_audio(value, rate, f"{name}[{i}]") for i, (value, rate) in enumerate(zip(values, rates, strict=True)))
@@ -139,30 +148,31 @@ def each_clip(values: Sequence[ClipInput], name: str = "X") -> Iterator[list[Fra
     given: object = values  # whatever the annotation says
     if isinstance(given, str | PathLike | Clip) or _num_dimensions(given) in (0, 1, 2, 3):
         raise InvalidArgument(f"{name} must be a sequence of signs, got one: write [{name}], or call recognise")
+    require_sequence(values, name)
     return (as_frames(value, f"{name}[{i}]") for i, value in enumerate(values))
 
 
-def as_texts(values: Iterable[object], name: str) -> list[str]:
-    """Labels or persons as text, integers written in digits.
+def as_labels(X: Sequence[Any], y: Iterable[object], groups: Iterable[object] | None) -> tuple[list[str], list[str]]:
+    """Labels and persons of what is learned from, both as texts; persons are "" where `groups` is None.
 
     Raises
     ------
     InvalidArgument
-        For a single text in place of several, for one that is neither text nor an integer (such as the NaN or None of a
-        table's empty cell), and for one that UTF-8 cannot hold, as from the name of a file; names the item.
+        As `as_texts`, and for lengths that differ.
     """
-    if isinstance(values, str):
-        raise InvalidArgument(f"{name} must be a sequence of texts, got one: write [{name}]")
-    return [_as_text(value, f"{name}[{i}]") for i, value in enumerate(values)]
+    require_sequence(X, "X")
+    labels = as_texts(y, "y")
+    persons = [""] * len(X) if groups is None else as_texts(groups, "groups")
+    if not len(X) == len(labels) == len(persons):
+        raise InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(labels)}, {len(persons)}")
+    return labels, persons
 
 
-def _as_text(value: object, name: str) -> str:
-    if isinstance(value, bool) or not isinstance(value, str | int | np.integer):
-        raise InvalidArgument(f"{name} must be text, got {value!r}")
-    text = str(value)
-    if not text.isascii() and any("\ud800" <= character <= "\udfff" for character in text):
-        raise InvalidArgument(f"{name} is {text!r}, which is not UTF-8")
-    return text
+def require_sequence(values: object, name: str) -> None:
+    """Raise InvalidArgument for what has no length or no items, such as a generator or None."""
+    if not (hasattr(values, "__len__") and hasattr(values, "__iter__")):
+        more = f": write list({name})" if isinstance(values, Iterable) else ""
+        raise InvalidArgument(f"{name} must be a sequence, got {_kind(values)}{more}")
 
 
 def _num_dimensions(value: object) -> int | None:

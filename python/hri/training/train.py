@@ -158,8 +158,9 @@ def _train_words(
 def _train_gestures(dataset: Dataset, recognizer: GestureRecognizer, progress: Progress) -> GestureRecognizer:
     # Only the features of a clip are kept, so that a folder of videos need not fit in memory.
     rows = []
+    untrained = recognizer.untrained()  # one that is trained sees by the options of its training
     for done, sample in enumerate(dataset.samples):
-        rows.append(recognizer.features(read_frames(sample.path).frames))
+        rows.append(untrained.features(read_frames(sample.path).frames))
         progress("finding hands", done + 1, len(dataset))
     return recognizer.fit_features(
         rows,

@@ -7,7 +7,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from os import PathLike
+from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 
 from hri import _native
 from hri.core.errors import FormatError, InvalidArgument
+from hri.core.labels import as_text, as_texts
 from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
 from hri.recognition.held_out_report import HeldOutReport
-from hri.recognition.inputs import ClipInput, as_frames, as_texts, each_clip
+from hri.recognition.inputs import ClipInput, as_frames, as_labels, each_clip
 from hri.recognition.keywords import GestureRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.recognition.quality import mask_quality
@@ -36,6 +37,8 @@ if TYPE_CHECKING:
     from hri._native_vision import GestureStream, GestureStreamOptions
 
 _log = logging.getLogger(__name__)
+
+_MOST_NAMED = 5
 
 
 class GestureRecognizer(Recognizer):
@@ -97,17 +100,23 @@ class GestureRecognizer(Recognizer):
     def features(self, clip: ClipInput) -> NDArray[np.float32]:
         """Features of every frame that shows a hand, float32, shape (num_frames_with_hand, num_features).
 
+        They are those of the options that were trained with, and before training of the options given. For training
+        anew after `set_params`, take those of `untrained`.
+
         Parameters
         ----------
         clip : path, Clip, picture or sequence of pictures
             As `recognise` takes it.
         """
+        return self._features(clip, self._options_in_use)
+
+    def _features(self, clip: ClipInput, options: _native.GestureRecognizerOptions) -> NDArray[np.float32]:
         frames = [np.ascontiguousarray(frame) for frame in as_frames(clip)]
-        if self._by_landmarks:
-            return _landmark_rows(frames, self.options)
+        if options.source == "landmarks":
+            return _landmark_rows(frames, options)
         from hri import _native_vision
 
-        return np.asarray(_native_vision.gesture_features(frames, self.options, self.face_finder()))
+        return np.asarray(_native_vision.gesture_features(frames, options, self._face_finder(options)))
 
     def features_and_quality(self, clip: ClipInput) -> tuple[NDArray[np.float32], float | None]:
         """What `features` gives, and beside it the quality that `recognise` gives the decision; hands are found once.
@@ -117,7 +126,7 @@ class GestureRecognizer(Recognizer):
         clip : path, Clip, picture or sequence of pictures
             As `recognise` takes it.
         """
-        return self._seen(clip, self.options)
+        return self._seen(clip, self._options_in_use)
 
     def _seen(
         self, clip: ClipInput, options: _native.GestureRecognizerOptions
@@ -127,7 +136,7 @@ class GestureRecognizer(Recognizer):
             return _landmark_rows(frames, options), None
         from hri import _native_vision
 
-        finder = _native_vision.HandFinder(options.hands, faces=self.face_finder())
+        finder = _native_vision.HandFinder(options.hands, faces=self._face_finder(options))
         sides = finder.find_pair(frames) if options.num_hands == 2 else [finder.find(frames)]
         surer = [max(hands, key=lambda hand: float(hand.quality)) for hands in zip(*sides, strict=True)]
         return _observation_rows(sides, options), mask_quality(surer)
@@ -143,14 +152,16 @@ class GestureRecognizer(Recognizer):
         InvalidArgument
             For one hand where two are wanted, or two where one is.
         """
-        num_hands = self.options.num_hands
+        options = self._options_in_use
+        num_hands = options.num_hands
         if (right is not None) != (num_hands == 2):
             raise InvalidArgument(f"num_hands is {num_hands}: right must be given where it is 2, and only there")
-        return _observation_rows([hands] if right is None else [hands, right], self.options)
+        return _observation_rows([hands] if right is None else [hands, right], options)
 
     @property
-    def _by_landmarks(self) -> bool:
-        return bool(self.options.source == "landmarks")
+    def _options_in_use(self) -> _native.GestureRecognizerOptions:
+        """Those that were trained with, which `set_params` leaves alone; before training, those given."""
+        return self.options if self._native is None else self._native.options
 
     @property
     def model(self) -> Any:
@@ -211,16 +222,23 @@ class GestureRecognizer(Recognizer):
             For lengths that differ, or a label without a single hand in view.
         Interrupted
             When Ctrl-C is pressed; the recogniser is left as it was.
+
+        Notes
+        -----
+        Clips without a hand in view are left out; a warning of the log names them.
         """
-        if len(X) != len(y):
-            raise InvalidArgument(f"X and y differ in length: {len(X)}, {len(y)}")
-        as_texts(y, "y")  # refused before an hour of reading
-        rows = []
-        for done, clip in enumerate(each_clip(X)):
-            rows.append(self.features(clip))
+        labels, signers = as_labels(X, y, groups)  # refused before an hour of reading
+        rows, empty = [], []
+        for done, (given, clip) in enumerate(zip(X, each_clip(X), strict=True)):
+            rows.append(self._features(clip, self.options))
+            if len(rows[-1]) == 0:
+                empty.append(_place_of(given, done))
             if progress is not None:
                 progress(done + 1, len(X))
-        return self.fit_features(rows, y, groups=groups, progress=progress)
+        if empty:
+            few = ", ".join(empty[:_MOST_NAMED]) + (", ..." if len(empty) > _MOST_NAMED else "")
+            _log.warning("clips without a hand in view are left out, %d of %d: %s", len(empty), len(rows), few)
+        return self.fit_features(rows, labels, groups=signers, progress=progress)
 
     def fit_features(
         self,
@@ -230,7 +248,10 @@ class GestureRecognizer(Recognizer):
         groups: Sequence[str] | None = None,
         progress: Callable[[int, int], None] | None = None,
     ) -> GestureRecognizer:
-        """Train on what `features` returned, so that clips are read once for several trainings."""
+        """Train on what `features` returned, so that clips are read once for several trainings.
+
+        The options given are saved with the model as those of the rows: they must be the ones `features` went by.
+        """
         signers = [""] * len(rows) if groups is None else as_texts(groups, "groups")
         if not len(rows) == len(y) == len(signers):
             raise InvalidArgument(f"features, y and groups differ in length: {len(rows)}, {len(y)}, {len(signers)}")
@@ -245,20 +266,21 @@ class GestureRecognizer(Recognizer):
         Models that keep what they were trained on (``rbf``, ``knn``) are trained anew on that and the clips. For
         ``trajectory`` the mean of every other gesture stands for its clips, and what separates it from the others moves
         as little as the new clips ask for. ``hmm`` and ``ptbhmm`` leave the models of the others as they are. To take a
-        gesture back, keep a copy (`copy.copy`) from before.
+        gesture back, keep a copy (`copy.copy`) from before. Options are those that were trained with, whatever
+        `set_params` has changed for the next `fit`.
 
         Parameters
         ----------
         label : str
-            A gesture that is not in the vocabulary.
+            A gesture that is not in the vocabulary; an integer counts as its digits, as in `fit`.
         clips : sequence of clips
             Each as `recognise` takes it, one or more, with a hand in view.
 
         Raises
         ------
         InvalidArgument
-            For a label that is empty, reserved or in the vocabulary already, no clip, one without a hand in view
-            (names it, as in ``samples[0]``), a dynamic gesture of fewer than 8 frames with a hand, and the models
+            For a label that is no text, empty, reserved or in the vocabulary already, no clip, one without a hand in
+            view (names it, as in ``samples[0]``), a dynamic gesture of fewer than 8 frames with a hand, and the models
             ``svm`` and ``bayes``, which keep too little of what they were trained on; the recogniser is left as it was.
 
         Examples
@@ -268,11 +290,13 @@ class GestureRecognizer(Recognizer):
         >>> "eight" in more.classes_, "eight" in signs.classes_
         (True, False)
         """
-        return self.add_gesture_features(label, [self.features(clip) for clip in each_clip(clips)])
+        options = self._trained.options
+        text = as_text(label, "label")
+        return self.add_gesture_features(text, [self._features(clip, options) for clip in each_clip(clips)])
 
     def add_gesture_features(self, label: str, rows: Sequence[NDArray[np.float32]]) -> GestureRecognizer:
         """Add a gesture by what `features` returned for its clips; as `add_gesture`."""
-        self._native = self._trained.with_gesture(label, list(rows))
+        self._native = self._trained.with_gesture(as_text(label, "label"), list(rows))
         return self
 
     def recognise(self, clip: ClipInput) -> Decision:
@@ -337,11 +361,14 @@ class GestureRecognizer(Recognizer):
         InvalidArgument
             With the option ``use_faces``, where nothing on this computer finds faces.
         """
-        if self._by_landmarks:
+        return self._face_finder(self._options_in_use)
+
+    def _face_finder(self, options: _native.GestureRecognizerOptions) -> Any:
+        if options.source == "landmarks":
             return None
         if self.faces is not None:
             return face_finder(self.faces)
-        return face_finder(required=True) if self.options.use_faces else None
+        return face_finder(required=True) if options.use_faces else None
 
     def decide(self, X: Sequence[ClipInput]) -> list[Decision]:
         """The decision for every item of `X`, each as `recognise` takes it."""
@@ -351,6 +378,12 @@ class GestureRecognizer(Recognizer):
     def load(cls, path: str | PathLike[str]) -> GestureRecognizer:
         """Read a model that `save` wrote, in Python or C++. Raises FormatError for anything else."""
         return cls._wrap(load_native(_native.GestureRecognizer.from_model_file, path, "gesture_recognizer"))
+
+
+def _place_of(clip: ClipInput, number: int) -> str:
+    """Where a clip of `X` stands, and of what file it is, if it is of one."""
+    path = clip if isinstance(clip, str | PathLike) else getattr(clip, "path", None)
+    return f"X[{number}]" if path is None else f"X[{number}] ({fspath(path)})"
 
 
 def _landmark_rows(frames: list[NDArray[np.uint8]], options: _native.GestureRecognizerOptions) -> NDArray[np.float32]:

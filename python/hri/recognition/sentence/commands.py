@@ -6,12 +6,13 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Collection, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hri import _native
-from hri.core.errors import InvalidArgument
+from hri.core.errors import FormatError, InvalidArgument
 from hri.core.suggest import did_you_mean
 from hri.language import Grammar
 from hri.recognition.decision import NO_INPUT, RECOGNISED, UNKNOWN, Decision, NBest
@@ -81,6 +82,21 @@ class CommandRecognizer:
             self.commands_.setdefault(label, dict(slots))
             self._label_of[tuple(sentence)] = label
         self.classes_: NDArray[np.str_] = np.array(sorted(self.commands_))
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"words": self._words, "grammar": self._grammar.text, "min_confidence": self.min_confidence}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        name = type(self).__name__
+        if not isinstance(state, dict) or state.keys() != {"words", "grammar", "min_confidence"}:
+            raise FormatError(f"the state of {name} must have words, grammar and min_confidence")
+        words, grammar, least = state["words"], state["grammar"], state["min_confidence"]
+        if not (
+            isinstance(words, ConnectedWordRecognizer) and isinstance(grammar, str) and isinstance(least, int | float)
+        ):
+            raise FormatError(f"the state of {name} must have a ConnectedWordRecognizer, a text and a number")
+        parsed = Grammar.parse(grammar, f"the grammar of {name}")
+        self.__init__(words, parsed, min_confidence=least)  # type: ignore[misc]
 
     @property
     def words(self) -> ConnectedWordRecognizer:

@@ -13,10 +13,11 @@ import numpy as np
 
 from hri import _native
 from hri.core.errors import FormatError, InvalidArgument
+from hri.core.labels import as_texts
 from hri.io import ModelFile
 from hri.language import ConfusionSlot, Grammar, Lattice, NGramModel, WordErrors, count_word_errors
 from hri.media import naming_file, naming_files
-from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts, each_audio
+from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_labels, each_audio, require_sequence
 from hri.recognition.keywords import ConnectedDecoderKeywords, ConnectedWordRecognizerKeywords
 from hri.recognition.sentence.transcript import Transcript, transcript_of
 from hri.recognition.word.embedding import SpeechEmbedding
@@ -124,10 +125,7 @@ class ConnectedWordRecognizer(RecognizerWithEmbedding):
         Interrupted
             When Ctrl-C is pressed; the recogniser is left as it was.
         """
-        speakers = [""] * len(X) if groups is None else as_texts(groups, "groups")
-        if not len(X) == len(y) == len(speakers):
-            raise InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(y)}, {len(speakers)}")
-        labels = as_texts(y, "y")
+        labels, speakers = as_labels(X, y, groups)
         native_embedding = self._native_embedding(embedding)
         clips = as_audios(X, sample_rate_hz)
         _log.info("training on %d recordings of %d words", len(clips), len(set(labels)))
@@ -335,6 +333,24 @@ class ConnectedWordRecognizer(RecognizerWithEmbedding):
     def count_errors(
         self, X: Sequence[AudioInput], y: Sequence[Sequence[str]], sample_rate_hz: int | Sequence[int] | None = None
     ) -> WordErrors:
-        """Word errors over recordings whose words are known."""
-        found = [self.recognise(clip).labels for clip in each_audio(X, sample_rate_hz)]
-        return count_word_errors(y, found)
+        """Word errors over recordings whose words are known.
+
+        Parameters
+        ----------
+        X, sample_rate_hz
+            As of `fit`, but of sentences.
+        y : sequence of sequences of str
+            The words of each; integers count as their digits, as in `fit`.
+
+        Raises
+        ------
+        InvalidArgument
+            For lengths that differ and words that are no text, before anything is recognised; then as `recognise` does.
+        """
+        require_sequence(y, "y")
+        words = [as_texts(sentence, f"y[{i}]") for i, sentence in enumerate(y)]
+        clips = each_audio(X, sample_rate_hz)
+        if len(X) != len(words):
+            raise InvalidArgument(f"X and y differ in length: {len(X)}, {len(words)}")
+        found = [self.recognise(clip).labels for clip in clips]
+        return count_word_errors(words, found)

@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Sequence
+import operator
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
 from os import PathLike
 from typing import Any, Unpack
@@ -14,10 +15,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hri import _native
+from hri.core.display import shown
 from hri.core.errors import InvalidArgument
+from hri.core.labels import as_text, as_texts
 from hri.language import WordErrors, count_word_errors
 from hri.recognition.base import Recognizer
-from hri.recognition.inputs import as_texts
+from hri.recognition.inputs import require_sequence
 from hri.recognition.keywords import ConnectedDecoderKeywords, SentenceRecognizerKeywords
 from hri.recognition.loading import load_native
 
@@ -128,8 +131,9 @@ class SentenceRecognizer(Recognizer):
         Raises
         ------
         InvalidArgument
-            Names the sentence: lengths that differ, tracks without hands or head or not finite, words beyond the frames
-            or not in the order of time; fewer than two labels, no frame outside the words.
+            Names the sentence: lengths that differ, tracks without hands or head or not finite, words that are not
+            (label, first_frame, last_frame) or whose frames are no integers, beyond the frames or not in the order of
+            time; fewer than two labels, no frame outside the words.
         Interrupted
             When Ctrl-C is pressed; the recogniser is left as it was.
         """
@@ -139,7 +143,7 @@ class SentenceRecognizer(Recognizer):
             lengths = f"{len(X)}, {len(y)}, {len(signers)}, {len(scales)}"
             raise InvalidArgument(f"X, y, groups and scales_px differ in length: {lengths}")
         tracks = [self._frames(one, f"X[{i}]") for i, one in enumerate(X)]
-        words = [_spans(spans, f"y[{i}]") for i, spans in enumerate(y)]
+        words = [_words(spans, f"y[{i}]") for i, spans in enumerate(y)]
         _log.info("training on %d sentences", len(tracks))
         self._native = self._native_class.train(tracks, words, scales, signers, self.options, progress)
         return self
@@ -190,7 +194,8 @@ class SentenceRecognizer(Recognizer):
         InvalidArgument
             For another `count`, more than 64 million states times frames, and as in training.
         """
-        found = self._trained.recognise_n_best(self._frames(tracks, "tracks"), int(count), scale_px)
+        most = _as_integer(count, "count")
+        found = self._trained.recognise_n_best(self._frames(tracks, "tracks"), most, scale_px)
         return [_as_sentence(sentence) for sentence in found]
 
     def recognise_spans(
@@ -217,9 +222,9 @@ class SentenceRecognizer(Recognizer):
         Raises
         ------
         InvalidArgument
-            For spans beyond the frames or not in the order of time, and as in training.
+            For spans that are no pairs of integers, beyond the frames or not in the order of time, and as in training.
         """
-        pairs = [(int(first), int(last)) for first, last in spans]
+        pairs = _spans(spans)
         frames = self._frames(tracks, "tracks")
         return _as_sentence(self._trained.recognise_spans(frames, pairs, scale_px, use_language))
 
@@ -243,17 +248,35 @@ class SentenceRecognizer(Recognizer):
         InvalidArgument
             As `recognise_spans` does.
         """
-        pairs = [(int(first), int(last)) for first, last in spans]
+        pairs = _spans(spans)
         scores: NDArray[np.float64] = self._trained.score_spans(self._frames(tracks, "tracks"), pairs, scale_px)
         return scores
 
     def count_errors(
         self, X: Sequence[ArrayLike], y: Sequence[Sequence[str]], scales_px: Sequence[float] | None = None
     ) -> WordErrors:
-        """Word errors over sentences whose words are known."""
-        scales = [0.0] * len(X) if scales_px is None else scales_px
+        """Word errors over sentences whose words are known.
+
+        Parameters
+        ----------
+        X, scales_px
+            As of `fit`.
+        y : sequence of sequences of str
+            The words of each sentence, without their frames.
+
+        Raises
+        ------
+        InvalidArgument
+            For lengths that differ and words that are no text, before anything is recognised; then as `recognise` does.
+        """
+        require_sequence(X, "X")
+        require_sequence(y, "y")
+        words = [as_texts(sentence, f"y[{i}]") for i, sentence in enumerate(y)]
+        scales = [0.0] * len(X) if scales_px is None else [float(scale) for scale in scales_px]
+        if not len(X) == len(words) == len(scales):
+            raise InvalidArgument(f"X, y and scales_px differ in length: {len(X)}, {len(words)}, {len(scales)}")
         found = [self.recognise(one, scale_px=scale).labels for one, scale in zip(X, scales, strict=True)]
-        return count_word_errors(y, found)
+        return count_word_errors(words, found)
 
     def _frames(self, values: ArrayLike, name: str) -> NDArray[np.float32]:
         return as_rows(values, name) if self.options.input == "rows" else as_tracks(values, name)
@@ -266,7 +289,7 @@ class SentenceRecognizer(Recognizer):
 
 def as_tracks(values: ArrayLike, name: str) -> NDArray[np.float32]:
     """Tracks as the core takes them, shape (num_frames, 6); InvalidArgument names what has another shape."""
-    array = np.asarray(values, np.float32)
+    array = _as_array(values, name)
     if array.shape[1:] not in ((6,), (3, 2)):
         raise InvalidArgument(f"{name} has shape {array.shape}, must be (num_frames, 3, 2) or (num_frames, 6)")
     return np.ascontiguousarray(array.reshape(len(array), 6))
@@ -274,15 +297,58 @@ def as_tracks(values: ArrayLike, name: str) -> NDArray[np.float32]:
 
 def as_rows(values: ArrayLike, name: str) -> NDArray[np.float32]:
     """Rows of features as the core takes them; InvalidArgument names what has another shape."""
-    array = np.asarray(values, np.float32)
+    array = _as_array(values, name)
     if array.ndim != 2:
         raise InvalidArgument(f"{name} has shape {array.shape}, must be (num_frames, num_features)")
     return np.ascontiguousarray(array)
 
 
-def _spans(words: Sequence[tuple[str, int, int]], name: str) -> list[tuple[str, int, int]]:
-    labels = as_texts([label for label, _, _ in words], name)
-    return [(label, int(first), int(last)) for label, (_, first, last) in zip(labels, words, strict=True)]
+def _as_array(values: ArrayLike, name: str) -> NDArray[np.float32]:
+    try:
+        return np.asarray(values, np.float32)
+    except (TypeError, ValueError) as error:  # texts, and lists of different lengths
+        raise InvalidArgument(f"{name} must be an array of numbers: {error}") from error
+
+
+def _as_integer(value: object, name: str) -> int:
+    """An integer of 32 bits, as the core takes it: nothing is cut or rounded."""
+    try:
+        number = operator.index(value)  # type: ignore[arg-type]
+    except TypeError:
+        raise InvalidArgument(f"{name} must be an integer, got {shown(value)}") from None
+    if abs(number) > np.iinfo(np.int32).max:
+        raise InvalidArgument(f"{name} is {shown(number)}, which is too large")
+    return number
+
+
+def _items(values: object, fields: str, name: str) -> list[tuple[Any, ...]]:
+    """The tuples of `fields` that `values` are, each as long; InvalidArgument names what is none."""
+    form = f"({fields})"
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise InvalidArgument(f"{name} must be a sequence of {form}, got {shown(values)}")
+    items = list(values)
+    for i, item in enumerate(items):
+        if isinstance(item, str) or not isinstance(item, Sequence | np.ndarray) or len(item) != fields.count(",") + 1:
+            raise InvalidArgument(f"{name}[{i}] must be {form}, got {shown(item)}")
+    return [tuple(item) for item in items]
+
+
+def _words(words: Sequence[tuple[str, int, int]], name: str) -> list[tuple[str, int, int]]:
+    return [
+        (
+            as_text(label, f"{name}[{i}]"),
+            _as_integer(first, f"first_frame of {name}[{i}]"),
+            _as_integer(last, f"last_frame of {name}[{i}]"),
+        )
+        for i, (label, first, last) in enumerate(_items(words, "label, first_frame, last_frame", name))
+    ]
+
+
+def _spans(spans: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
+    return [
+        (_as_integer(first, f"first_frame of spans[{i}]"), _as_integer(last, f"last_frame of spans[{i}]"))
+        for i, (first, last) in enumerate(_items(spans, "first_frame, last_frame", "spans"))
+    ]
 
 
 def _as_sentence(found: Any) -> RecognisedSentence:

@@ -15,13 +15,14 @@ from numpy.typing import NDArray
 
 from hri import _native
 from hri.core.errors import InvalidArgument
+from hri.core.labels import as_text
 from hri.core.suggest import did_you_mean
 from hri.htk import Dictionary, Pronunciation
 from hri.language import closest_phone, pronounce
 from hri.media import naming_file, naming_files
 from hri.recognition.base import Recognizer
 from hri.recognition.decision import Decision
-from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts, each_audio
+from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_labels, each_audio
 from hri.recognition.keywords import SubwordRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.recognition.quality import speech_snr_db
@@ -107,10 +108,7 @@ class SubwordRecognizer(Recognizer):
         Interrupted
             When Ctrl-C is pressed; the recogniser is left as it was.
         """
-        labels = as_texts(y, "y")
-        speakers = [""] * len(X) if groups is None else as_texts(groups, "groups")
-        if not len(X) == len(labels) == len(speakers):
-            raise InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(labels)}, {len(speakers)}")
+        labels, speakers = as_labels(X, y, groups)
         clips = as_audios(X, sample_rate_hz)
         lexicon = _lexicon(sorted(set(labels)), language, spellings or {}, dictionary)
         _log.info("training on %d utterances of %d words", len(clips), len(lexicon.entries))
@@ -166,6 +164,7 @@ class SubwordRecognizer(Recognizer):
         IoError
             Where espeak-ng is needed and not installed.
         """
+        label = as_text(label, "label")
         words = self._trained
         said = [pronounce(spelling or label, language)] if pronunciations is None else pronunciations
         known = self.units
@@ -182,6 +181,7 @@ class SubwordRecognizer(Recognizer):
 
     def remove_word(self, label: str) -> SubwordRecognizer:
         """Remove a word. Raises InvalidArgument for one outside the vocabulary, or if fewer than two would remain."""
+        label = as_text(label, "label")
         if label not in self.classes_:
             raise InvalidArgument(f"no word {label!r}; {did_you_mean(label, self.classes_, 'it has')}")
         self._native = self._trained.without_word(label)

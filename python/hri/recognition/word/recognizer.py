@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 
 from hri import _native
 from hri.core.errors import InvalidArgument
+from hri.core.labels import as_text, as_texts
 from hri.core.suggest import did_you_mean
 from hri.media import Audio, naming_file, naming_files
 from hri.recognition.base import best_labels, posteriors, share_right
 from hri.recognition.decision import Decision
 from hri.recognition.held_out_report import HeldOutReport
-from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_texts, each_audio
+from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_labels, each_audio
 from hri.recognition.keywords import WordRecognizerKeywords
 from hri.recognition.quality import speech_snr_db
 from hri.recognition.word.embedding import SpeechEmbedding
@@ -135,13 +136,10 @@ class WordRecognizer(RecognizerWithEmbedding):
         Interrupted
             When Ctrl-C is pressed; the recogniser is left as it was.
         """
-        speakers = [""] * len(X) if groups is None else as_texts(groups, "groups")
-        if not len(X) == len(y) == len(speakers):
-            raise InvalidArgument(f"X, y and groups differ in length: {len(X)}, {len(y)}, {len(speakers)}")
+        labels, speakers = as_labels(X, y, groups)
         made_of = [""] * len(X) if recordings is None else as_texts(recordings, "recordings")
         if len(made_of) != len(X):
             raise InvalidArgument(f"X and recordings differ in length: {len(X)}, {len(made_of)}")
-        labels = as_texts(y, "y")
         native_embedding = self._native_embedding(embedding)
         if embedding_fillers and native_embedding is None:
             raise InvalidArgument(f"front_end={self.options.front_end!r} takes no fillers for a speech embedding")
@@ -189,6 +187,7 @@ class WordRecognizer(RecognizerWithEmbedding):
             For a label that is in the vocabulary already, no clip, or one without speech, too short or not finite
             (names it, as in ``clips[0]``); the recogniser is left as it was.
         """
+        label = as_text(label, "label")
         read = as_audios(clips, sample_rate_hz, "clips")
         words = self._trained
         with naming_files([clip.path for clip in read], "clips"):
@@ -199,6 +198,7 @@ class WordRecognizer(RecognizerWithEmbedding):
 
     def remove_word(self, label: str) -> WordRecognizer:
         """Remove a word. Raises InvalidArgument for one outside the vocabulary, or if fewer than two would remain."""
+        label = as_text(label, "label")
         if label not in self.classes_:
             raise InvalidArgument(f"no word {label!r}; {did_you_mean(label, self.classes_, 'it has')}")
         self._native = self._trained.without_word(label)

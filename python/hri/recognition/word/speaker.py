@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Unpack
 
 from hri import _native
+from hri.core.labels import as_text
 from hri.core.suggest import did_you_mean
 from hri.media import naming_file
 from hri.recognition.decision import Decision
@@ -80,6 +81,7 @@ class SpeakerAdapter:
             For a label that is not in the vocabulary, or audio without speech.
         """
         clip = as_audio(audio, sample_rate_hz)
+        label = as_text(label, "label")
         if label not in self._labels:
             raise _native.InvalidArgument(f"no word {label!r}; {did_you_mean(label, self._labels, 'it has')}")
         with naming_file(clip.path):
