@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from copy import copy
+
 import numpy as np
 import pytest
 
@@ -86,3 +88,9 @@ def test_errors_are_counted_of_words_alone(signs: SentenceRecognizer, monkeypatc
     ):
         with pytest.raises(InvalidArgument, match=f"^{message}"):
             signs.count_errors([tracks], y, scales)
+
+
+def test_options_set_after_training_are_for_the_next(signs: SentenceRecognizer) -> None:
+    tracks, _ = signed(["BALL"], 1)
+    changed = copy(signs).set_params(input="rows")
+    assert changed.recognise(tracks) == signs.recognise(tracks)

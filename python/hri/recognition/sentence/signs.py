@@ -142,7 +142,7 @@ class SentenceRecognizer(Recognizer):
         if not len(X) == len(y) == len(signers) == len(scales):
             lengths = f"{len(X)}, {len(y)}, {len(signers)}, {len(scales)}"
             raise InvalidArgument(f"X, y, groups and scales_px differ in length: {lengths}")
-        tracks = [self._frames(one, f"X[{i}]") for i, one in enumerate(X)]
+        tracks = [_frames(one, f"X[{i}]", self.options) for i, one in enumerate(X)]
         words = [_words(spans, f"y[{i}]") for i, spans in enumerate(y)]
         _log.info("training on %d sentences", len(tracks))
         self._native = self._native_class.train(tracks, words, scales, signers, self.options, progress)
@@ -279,7 +279,7 @@ class SentenceRecognizer(Recognizer):
         return count_word_errors(words, found)
 
     def _frames(self, values: ArrayLike, name: str) -> NDArray[np.float32]:
-        return as_rows(values, name) if self.options.input == "rows" else as_tracks(values, name)
+        return _frames(values, name, self._trained.options)  # `set_params` is for the next `fit`
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> SentenceRecognizer:
@@ -301,6 +301,10 @@ def as_rows(values: ArrayLike, name: str) -> NDArray[np.float32]:
     if array.ndim != 2:
         raise InvalidArgument(f"{name} has shape {array.shape}, must be (num_frames, num_features)")
     return np.ascontiguousarray(array)
+
+
+def _frames(values: ArrayLike, name: str, options: _native.SentenceRecognizerOptions) -> NDArray[np.float32]:
+    return as_rows(values, name) if options.input == "rows" else as_tracks(values, name)
 
 
 def _as_array(values: ArrayLike, name: str) -> NDArray[np.float32]:
