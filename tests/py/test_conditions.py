@@ -11,7 +11,16 @@ import pytest
 
 from hri.core.errors import InvalidArgument
 from hri.evaluation.noise import active_power
-from hri.evaluation.room import InRoom, Response, Room, convolve, responses_at, simulate_response
+from hri.evaluation.room import (
+    AcrossRooms,
+    InRoom,
+    Response,
+    Room,
+    convolve,
+    diffuse_response,
+    responses_at,
+    simulate_response,
+)
 from hri.evaluation.tempo import ChangeTempo
 from hri.io import write_wav_pcm16
 
@@ -96,3 +105,28 @@ def test_a_recorded_response_is_read_and_resampled(tmp_path: Path) -> None:
     # The echo comes 1000 samples later, a whole number of periods but for a quarter: 500 Hz has 32 samples a period.
     expected = np.abs(1 + 0.25 * np.exp(-2j * np.pi * 500 * 1000 / RATE_HZ))
     assert heard[4000:8000].std() / tone.std() == pytest.approx(expected, rel=0.02)
+
+
+@pytest.mark.parametrize(("volume_m3", "reverberation_s", "distance_m"), [(60.0, 0.3, 1.0), (200.0, 0.9, 4.0)])
+def test_a_diffuse_echo_decays_and_is_as_strong_as_the_critical_distance_says(
+    volume_m3: float, reverberation_s: float, distance_m: float
+) -> None:
+    samples = diffuse_response(volume_m3, reverberation_s, distance_m, RATE_HZ, rng(3)).samples.astype(np.float64)
+    assert samples[0] == pytest.approx(0.5 / distance_m) and not samples[1 : int(0.002 * RATE_HZ)].any()
+    echo = float(np.sum(samples[1:] ** 2)) / samples[0] ** 2
+    assert echo == pytest.approx(distance_m**2 / (0.057**2 * volume_m3 / reverberation_s), rel=1e-4)
+    left_db = 10 * np.log10(np.cumsum(samples[:0:-1] ** 2)[::-1])  # Schroeder's integral
+    fall = np.polyfit(
+        np.arange(int(0.5 * reverberation_s * RATE_HZ)), left_db[: int(0.5 * reverberation_s * RATE_HZ)], 1
+    )
+    assert -60 / fall[0] / RATE_HZ == pytest.approx(reverberation_s, rel=0.1)
+    with pytest.raises(InvalidArgument, match="must be above 0"):
+        diffuse_response(volume_m3, 0.0, distance_m, RATE_HZ, rng())
+
+
+def test_every_clip_stands_in_a_room_of_its_own() -> None:
+    clip = np.zeros(RATE_HZ // 2, np.float32)
+    clip[100:4000] = np.sin(np.arange(3900) / 3)
+    first, second = (AcrossRooms()(clip, RATE_HZ, rng(seed)) for seed in (1, 2))
+    assert len(first) != len(second) and min(len(first), len(second)) >= len(clip) + 0.2 * RATE_HZ
+    np.testing.assert_array_equal(first, AcrossRooms()(clip, RATE_HZ, rng(1)))

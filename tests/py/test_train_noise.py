@@ -132,7 +132,33 @@ def test_python_refuses_what_is_no_noise(spoken: Path, noises: Any, complaint: s
     assert not trained_on
 
 
-@pytest.mark.parametrize("given", [{"noises": ["white"]}, {"fillers": []}])
+def test_copies_across_rooms_are_of_their_recordings(spoken: Path, trained_on: list[Any]) -> None:
+    dataset = hri.Dataset.load(spoken, "speech")
+    hri.train(dataset, hri.WordRecognizer(seed=3), rooms=True)
+    clips, number = trained_on[0], len(dataset)
+    assert len(clips) == 2 * number
+    for clean, far in zip(clips[:number], clips[number:], strict=True):
+        assert far.path == clean.path and len(far.samples) >= len(clean.samples) + 0.2 * RATE_HZ
+    hri.train(dataset, hri.WordRecognizer(seed=3), noises=["pink"], rooms=True)
+    assert len(trained_on[0]) == 3 * number
+    again = trained_on[0][2 * number :]
+    assert all(np.array_equal(a.samples, b.samples) for a, b in zip(clips[number:], again, strict=True))
+
+
+def test_train_says_that_it_added_rooms(
+    spoken: Path, few_fillers: None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    report = tmp_path / "report.json"
+    usual = ["train", "speech", "--data", str(spoken), "--front-end", "cepstra", "--no-network"]
+    assert main([*usual, "--rooms", "--out", str(tmp_path / "m.hri"), "--json", str(report)]) == 0
+    said = capsys.readouterr().err
+    assert "a copy of every recording across a room, too" in said and "of 36 recordings held out" in said
+    assert json.loads(report.read_text())["rooms"] is True
+    assert main(["train", "gesture", "--data", str(spoken), "--rooms"]) != 0
+    assert "--rooms is for speech" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("given", [{"noises": ["white"]}, {"fillers": []}, {"rooms": True}])
 def test_what_is_for_words_is_refused_for_gestures(signed: Path, given: dict[str, Any]) -> None:
     with pytest.raises(hri.InvalidArgument, match="for speech, the data set is gesture"):
         hri.train(signed, **given)

@@ -64,6 +64,12 @@ from hri.training import train as train_recognizer
     help="Speech only: train on a copy of every recording in noise too, 0 to 20 dB below the word, best in a recording "
     "of the place where the recogniser is used. With several, each copy takes one of them.",
 )
+@click.option(
+    "--rooms",
+    is_flag=True,
+    help="Speech only: train on a copy of every recording as heard across a room too, 0.5 to 4 m away: for a "
+    "microphone that is not close to the mouth.",
+)
 @source_option()
 @hands_option()
 @faces_option("never: an open palm may look like a face")
@@ -81,6 +87,7 @@ def train(
     embedding_path: str | None,
     network: bool | None,
     noises: tuple[str, ...],
+    rooms: bool,
     source: str | None,
     hands: str | None,
     faces: str | None,
@@ -98,6 +105,7 @@ def train(
       hri train speech --data spoken/ --embedding embedding_model.onnx
       hri train speech --data spoken/ --no-network
       hri train speech --data spoken/ --noise workshop.wav
+      hri train speech --data spoken/ --rooms
       hri train gesture --data pairs/ --hands both
       hri train gesture --data room/ --faces auto
     """
@@ -109,6 +117,8 @@ def train(
         raise click.UsageError("--seed and --option seed=... exclude each other")
     if noises and mode != "speech":
         raise click.UsageError("--noise is for speech")
+    if rooms and mode != "speech":
+        raise click.UsageError("--rooms is for speech")
     refuse_wrong_noises(noises)
     options = asked_options(
         mode,
@@ -149,12 +159,13 @@ def train(
             warn_of_silence(clips, untrained.options)
             del clips
         recognizer = train_recognizer(
-            dataset, untrained, fillers=others, embedding=embedding, noises=noises, progress=progress
+            dataset, untrained, fillers=others, embedding=embedding, noises=noises, rooms=rooms, progress=progress
         )
     recognizer.save(path)
     say(str(path), json_path)
-    if noises:
-        note("trained on a copy of every recording in noise, too; what follows counts both")
+    if noises or rooms:
+        copies = " and one ".join(how for how, asked in (("in noise", noises), ("across a room", rooms)) if asked)
+        note(f"trained on a copy of every recording {copies}, too; what follows counts them all")
     if faces not in (None, "never"):
         note("hands: of the person whose face is seen; wherever the model is used something must find faces")
     report = recognizer.held_out
@@ -179,6 +190,7 @@ def train(
             "persons": dataset.persons,
             "synthetic": dataset.synthetic,
             "noises": list(noises),
+            "rooms": rooms,
             "options": recognizer.options.as_dict(),
             "held_out": None if report is None else report.to_dict(),
             "is_calibrated": recognizer.is_calibrated,

@@ -21,6 +21,11 @@ from hri.signal import resample
 
 REFERENCE_M = 0.5
 """Simulated responses have a direct sound of gain 1 at this distance."""
+VOLUMES_M3 = (40.0, 250.0)
+REVERBERATIONS_S = (0.2, 2.0)
+DISTANCES_M = (0.5, 4.0)
+"""Of `AcrossRooms`, each drawn evenly in its logarithm."""
+_FIRST_ECHO_S = 0.002
 _WALL_M = 0.4
 """Speaker and microphone stand no nearer to a wall."""
 _TRIES = 1000
@@ -127,6 +132,66 @@ class InRoom:
         name = self.noises[int(rng.integers(len(self.noises)))]
         noise = draw_noise(name, len(heard), sample_rate_hz, rng, self.part)
         return heard + noise_at(noise, active_power(samples, sample_rate_hz), self.snr_db)
+
+
+def diffuse_response(
+    volume_m3: float, reverberation_s: float, distance_m: float, sample_rate_hz: int, rng: np.random.Generator
+) -> Response:
+    """By statistics alone: the direct sound, and noise that decays as the room's echo does. No library is needed.
+
+    The energy of the echo is that of the direct sound at the critical distance, 0.057 sqrt(V / T) metres (J.-D. Polack,
+    "La transmission de l'énergie sonore dans les salles", 1988; H. Kuttruff, "Room Acoustics", eq. 5.44).
+
+    Parameters
+    ----------
+    volume_m3 : float
+        V.
+    reverberation_s : float
+        T, in which sound falls by 60 dB.
+    distance_m : float
+        From speaker to microphone. The direct sound has gain 0.5 m / `distance_m`, as of `simulate_response`.
+    sample_rate_hz : int
+    rng : numpy.random.Generator
+        Of the echo.
+
+    Raises
+    ------
+    InvalidArgument
+        For what is not above 0.
+    """
+    if min(volume_m3, reverberation_s, distance_m, sample_rate_hz) <= 0:
+        raise InvalidArgument("volume_m3, reverberation_s, distance_m and sample_rate_hz must be above 0")
+    first = 1 + int(_FIRST_ECHO_S * sample_rate_hz)
+    num_samples = first + int(reverberation_s * sample_rate_hz)
+    times_s = np.arange(num_samples) / sample_rate_hz
+    samples = rng.standard_normal(num_samples) * 10 ** (-3 * times_s / reverberation_s)
+    samples[:first] = 0
+    critical_m = 0.057 * np.sqrt(volume_m3 / reverberation_s)
+    samples *= distance_m / critical_m / np.sqrt(np.sum(samples**2))
+    samples[0] = 1
+    return Response((REFERENCE_M / distance_m * samples).astype(np.float32), sample_rate_hz)
+
+
+@dataclass(frozen=True, eq=False)
+class AcrossRooms:
+    """A condition: every clip in a room of its own, drawn from small to large and from furnished to bare.
+
+    Attributes
+    ----------
+    noises, snr_db, part
+        As of `InRoom`.
+    """
+
+    noises: Sequence[str] = ("pink",)
+    snr_db: float = 30.0
+    part: str = "all"
+
+    def __call__(self, samples: Samples, sample_rate_hz: int, rng: np.random.Generator) -> Samples:
+        """The clip in such a room, longer by its echo."""
+        limits = np.log([VOLUMES_M3, REVERBERATIONS_S, DISTANCES_M])
+        volume, reverberation, distance = (float(drawn) for drawn in np.exp(rng.uniform(limits[:, 0], limits[:, 1])))
+        response = diffuse_response(volume, reverberation, distance, sample_rate_hz, rng)
+        return InRoom([response], self.noises, self.snr_db, self.part)(samples, sample_rate_hz, rng)
 
 
 def convolve(samples: Samples, response: NDArray[np.float32]) -> Samples:

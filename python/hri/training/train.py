@@ -16,7 +16,7 @@ from hri.evaluation.noise import check_noises
 from hri.media import read_audio, read_frames
 from hri.recognition import FillerWord, GestureRecognizer, SpeechEmbedding, WordRecognizer
 from hri.training.choices import choose_options
-from hri.training.noisy_copies import in_noise
+from hri.training.copies import across_a_room, in_noise
 
 Progress = Callable[[str, int, int], None]
 
@@ -29,6 +29,7 @@ def train(
     fillers: Sequence[FillerWord] | None = None,
     embedding: SpeechEmbedding | None = None,
     noises: Sequence[str] = (),
+    rooms: bool = False,
     progress: Progress | None = None,
 ) -> WordRecognizer: ...
 @overload
@@ -43,6 +44,7 @@ def train(
     fillers: Sequence[FillerWord] | None = None,
     embedding: SpeechEmbedding | None = None,
     noises: Sequence[str] = (),
+    rooms: bool = False,
     progress: Progress | None = None,
 ) -> WordRecognizer | GestureRecognizer: ...
 def train(
@@ -52,6 +54,7 @@ def train(
     fillers: Sequence[FillerWord] | None = None,
     embedding: SpeechEmbedding | None = None,
     noises: Sequence[str] = (),
+    rooms: bool = False,
     progress: Progress | None = None,
 ) -> WordRecognizer | GestureRecognizer:
     """Train on every recording of `dataset`.
@@ -72,6 +75,9 @@ def train(
     noises : sequence of str, optional
         For words: train on a copy of every recording in noise too, 0 to 20 dB below the word. Each is "white", "pink"
         or, best, the path of a recording of the place where the recogniser is used; a copy takes one of them.
+    rooms : bool
+        For words: train on a copy of every recording as heard across a room too, 0.5 to 4 m away, in rooms of many
+        kinds (`hri.evaluation.room.AcrossRooms`).
     progress : callable, optional
         Called with (what is being done, steps done, steps in all).
 
@@ -82,8 +88,8 @@ def train(
     Raises
     ------
     InvalidArgument
-        When `recognizer` is for the other mode, or another kind of recogniser, fillers, an embedding or noises are
-        given for gestures, a noise is none or silent, or training refuses the recordings or the embedding.
+        When `recognizer` is for the other mode, or another kind of recogniser, fillers, an embedding, noises or rooms
+        are given for gestures, a noise is none or silent, or training refuses the recordings or the embedding.
     FormatError, IoError
         For a recording that cannot be read; the message names the file.
     """
@@ -94,7 +100,8 @@ def train(
     if isinstance(dataset, str | PathLike):
         dataset = Dataset.load(dataset, None if recognizer is None else recognizer.mode)
     if dataset.kind != "speech":
-        of_words = (("fillers are", fillers), ("embedding is", embedding), ("noises are", noises or None))
+        copies = (("noises are", noises or None), ("rooms are", rooms or None))
+        of_words = (("fillers are", fillers), ("embedding is", embedding), *copies)
         for what, value in of_words:
             if value is not None:
                 raise InvalidArgument(f"{what} for speech, the data set is {dataset.kind}")
@@ -107,7 +114,7 @@ def train(
         )
     report = progress or (lambda what, done, total: None)
     if isinstance(recognizer, WordRecognizer):
-        return _train_words(dataset, recognizer, fillers, embedding, noises, report)
+        return _train_words(dataset, recognizer, fillers, embedding, noises, rooms, report)
     return _train_gestures(dataset, recognizer, report)
 
 
@@ -132,6 +139,7 @@ def _train_words(
     fillers: Sequence[FillerWord] | None,
     embedding: SpeechEmbedding | None,
     noises: Sequence[str],
+    rooms: bool,
     progress: Progress,
 ) -> WordRecognizer:
     clips = []
@@ -139,11 +147,17 @@ def _train_words(
         clips.append(read_audio(sample.path))
         progress("reading", done + 1, len(dataset))
     samples = list(dataset.samples)
+    seed = recognizer.options.seed
     if noises:
-        samples *= 2
+        samples += dataset.samples
         for number, clip in enumerate(clips[: len(dataset)]):
-            clips.append(in_noise(clip, noises, np.random.default_rng([recognizer.options.seed, number])))
+            clips.append(in_noise(clip, noises, np.random.default_rng([seed, number])))
             progress("adding noise", number + 1, len(dataset))
+    if rooms:
+        samples += dataset.samples
+        for number, clip in enumerate(clips[: len(dataset)]):
+            clips.append(across_a_room(clip, np.random.default_rng([seed, number, 1])))
+            progress("adding rooms", number + 1, len(dataset))
     return recognizer.fit(
         clips,
         [s.label for s in samples],

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Copies of recordings in noise, to train a recogniser for a place where it is not quiet."""
+"""Copies of recordings in noise and across rooms, to train a recogniser for where it is used."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from hri.evaluation.noise import find_noise, mix_noise
+from hri.evaluation.room import AcrossRooms
 from hri.media import Audio
 
 SNRS_DB = (20.0, 15.0, 10.0, 5.0, 0.0)
@@ -31,3 +32,14 @@ def in_noise(audio: Audio, noises: Sequence[str], rng: np.random.Generator) -> A
     if noise is None:
         return audio
     return replace(audio, samples=mix_noise(audio.samples, noise, snr_db, audio.sample_rate_hz))
+
+
+def across_a_room(audio: Audio, rng: np.random.Generator) -> Audio:
+    """A clip as a microphone 0.5 to 4 m away hears it in a room that is drawn, see `AcrossRooms`.
+
+    Parameters
+    ----------
+    audio : Audio
+    rng : numpy.random.Generator
+    """
+    return replace(audio, samples=AcrossRooms()(audio.samples, audio.sample_rate_hz, rng))
