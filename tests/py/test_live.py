@@ -62,6 +62,25 @@ def session() -> tuple[np.ndarray, list[str], list[float]]:
     return np.concatenate(parts), labels, starts
 
 
+def test_models_are_warm_before_the_first_word_is_said(
+    words: hri.WordRecognizer, session: tuple[np.ndarray, list[str], list[float]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    heard: list[hri.Decision] = []
+    plain = hri.WordRecognizer.recognise
+
+    def recognise(self: hri.WordRecognizer, *args: Any) -> hri.Decision:
+        heard.append(plain(self, *args))
+        return heard[-1]
+
+    monkeypatch.setattr(hri.WordRecognizer, "recognise", recognise)
+    samples, labels, _ = session
+    listener = Listener(words)
+    for stream in (1, 2):
+        decided = [event for event in listener.listen(ArraySource(samples, RATE_HZ)) if event.decision is not None]
+        assert len(decided) == len(labels) and len(heard) == stream * len(labels) + 1
+    assert heard[0].status != "no_input", "a buzz that is no speech would warm nothing"
+
+
 def test_a_stream_gives_the_decisions_of_its_words(
     words: hri.WordRecognizer, session: tuple[np.ndarray, list[str], list[float]]
 ) -> None:
