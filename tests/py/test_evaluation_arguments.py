@@ -14,7 +14,7 @@ import hri
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset
 from hri.evaluation import AddNoise, cross_validate, evaluate_conditions, evaluate_split
-from hri.evaluation.arguments import factory_of
+from hri.evaluation.recognizers import factory_of
 from hri.recognition import SpeakerAdapter
 
 

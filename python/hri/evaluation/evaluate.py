@@ -14,9 +14,10 @@ import numpy as np
 from hri.core.checks import check_integer
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset, Fold
-from hri.evaluation.arguments import Recognizer, check_dataset, check_not_empty, factory_of
+from hri.evaluation.checks import check_dataset, check_not_empty
 from hri.evaluation.conditions import check_exposure, expose
 from hri.evaluation.noise import AddNoise, check_noises, check_snr_db
+from hri.evaluation.recognizers import Recognizer, factory_of
 from hri.evaluation.result import EvaluationItem, EvaluationResult, FoldResult
 from hri.evaluation.speech import SpeechRunner, check_max_folds
 from hri.media import read_frames

@@ -13,7 +13,7 @@ import numpy as np
 from hri.core.checks import check_integer
 from hri.core.errors import InvalidArgument
 from hri.datasets import Dataset, Fold
-from hri.evaluation.arguments import check_dataset
+from hri.evaluation.checks import check_dataset
 from hri.evaluation.conditions import Condition, FrontEnd, Samples
 from hri.evaluation.result import EvaluationItem, EvaluationResult, FoldResult
 from hri.media import naming_file, naming_files, read_audio

@@ -1,32 +1,17 @@
 # SPDX-FileCopyrightText: The hri contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What can be evaluated: data sets with recordings, recognisers that decide for one label; refused before anything is
-read or trained."""
+"""Which recognisers can be evaluated: those that decide for one label; others are refused before anything is read."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
-from hri.core.display import shown
 from hri.core.errors import InvalidArgument
-from hri.datasets import Dataset
 from hri.recognition import GestureRecognizer, SpeechEmbedding, SubwordRecognizer, WordRecognizer
 
 Recognizer = WordRecognizer | GestureRecognizer
 _DECIDING = (WordRecognizer, SubwordRecognizer, GestureRecognizer)
 """Their `fit` takes one label for each recording, their `recognise` gives a `Decision`."""
-
-
-def check_dataset(dataset: object, name: str) -> None:
-    """Refuse what is no `Dataset`, such as the path of one. Raises InvalidArgument."""
-    if not isinstance(dataset, Dataset):
-        raise InvalidArgument(f"{name} must be a Dataset, as Dataset.load reads it, got {shown(dataset)}")
-
-
-def check_not_empty(dataset: Dataset, name: str) -> None:
-    """Refuse a data set without recordings. Raises InvalidArgument."""
-    if not len(dataset):
-        raise InvalidArgument(f"{name} has no recordings")
 
 
 def factory_of(
