@@ -124,7 +124,7 @@ class InRoom:
     part: str = "all"
 
     def __call__(self, samples: Samples, sample_rate_hz: int, rng: np.random.Generator) -> Samples:
-        """The clip in the room, longer by the room's echo."""
+        """The clip in the room, longer by the room's reverberation."""
         response = self.responses[int(rng.integers(len(self.responses)))]
         heard = convolve(samples, response.at(sample_rate_hz))
         if not self.noises:
@@ -137,10 +137,10 @@ class InRoom:
 def diffuse_response(
     volume_m3: float, reverberation_s: float, distance_m: float, sample_rate_hz: int, rng: np.random.Generator
 ) -> Response:
-    """By statistics alone: the direct sound, and noise that decays as the room's echo does. No library is needed.
+    """By statistics alone: the direct sound, and noise that decays as the reverberation does. No library is needed.
 
-    The energy of the echo is that of the direct sound at the critical distance, 0.057 sqrt(V / T) metres (J.-D. Polack,
-    "La transmission de l'énergie sonore dans les salles", 1988; H. Kuttruff, "Room Acoustics", eq. 5.44).
+    The reverberation is as strong as the direct sound at the critical distance, 0.057 sqrt(V / T) metres, and equally
+    strong everywhere (after J.-D. Polack, "La transmission de l'énergie sonore dans les salles", 1988).
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def diffuse_response(
         From speaker to microphone. The direct sound has gain 0.5 m / `distance_m`, as of `simulate_response`.
     sample_rate_hz : int
     rng : numpy.random.Generator
-        Of the echo.
+        Of the reverberation.
 
     Raises
     ------
@@ -187,7 +187,7 @@ class AcrossRooms:
     part: str = "all"
 
     def __call__(self, samples: Samples, sample_rate_hz: int, rng: np.random.Generator) -> Samples:
-        """The clip in such a room, longer by its echo."""
+        """The clip in such a room, longer by its reverberation."""
         limits = np.log([VOLUMES_M3, REVERBERATIONS_S, DISTANCES_M])
         volume, reverberation, distance = (float(drawn) for drawn in np.exp(rng.uniform(limits[:, 0], limits[:, 1])))
         response = diffuse_response(volume, reverberation, distance, sample_rate_hz, rng)
