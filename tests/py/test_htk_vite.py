@@ -191,3 +191,24 @@ def test_labels_may_stand_in_folders_that_an_mlf_names(hri, words: Path):
     Path("labels/v.lab").unlink()
     refused = hri("htk", "vite", "-H", "models", "-a", "-I", "said.mlf", "dict", "list", "v.usr")
     assert refused.code == 3 and "labels/v.lab: there is no such label file" in refused.err
+
+
+def test_results_are_not_written_over_recordings_or_other_results(hri, words: Path):
+    """Nothing is written then, not even the results of the recordings before."""
+    Path("v.usr").rename("one.usr")
+    Path("part").mkdir()
+    Path("part/one.usr").write_bytes(Path("one.usr").read_bytes())
+    before = {path: path.read_bytes() for path in Path().rglob("*.usr")}
+    vite = ("htk", "vite", "-H", "models", "-w", "net")
+    for given, place, files in (
+        (("-y", "usr"), "one.usr is a recording", ("one.usr",)),
+        (("-y", "usr", "-l", "part"), "part/one.usr is a recording", ("one.usr", "part/one.usr")),
+        (("-n", "4 2", "-z", "usr"), "one.usr is a recording", ("one.usr",)),
+        (("-l", "found"), "found/one.rec would hold results of one.usr", ("one.usr", "part/one.usr")),
+        (("-n", "4 2", "-z", "rec"), "one.rec would hold results of one.usr", ("one.usr",)),
+    ):
+        refused = hri(*vite, *given, "dict", "list", *files)
+        assert refused.code == 2 and place in refused.err, refused
+    assert {path: path.read_bytes() for path in Path().rglob("*.usr")} == before
+    assert not list(Path().rglob("*.rec"))
+    succeed(hri(*vite, "-i", "f.mlf", "-l", "*", "dict", "list", "one.usr", "part/one.usr"))

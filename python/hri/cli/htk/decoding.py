@@ -4,13 +4,16 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+import click
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.cli.htk.data import DataFile
 from hri.cli.htk.formatting import LabelFormat
 from hri.cli.htk.vocabulary import Vocabulary
 from hri.core.files import make_folder
@@ -76,6 +79,28 @@ class ResultFiles:
         self._master = master
         self._lattice_suffix = lattice_suffix
         self._entries: list[tuple[str, Transcription]] = []
+
+    def require_apart(self, recordings: Iterable[DataFile]) -> None:
+        """Refuse results that would be written over a recording, or over those of another one.
+
+        Raises
+        ------
+        click.UsageError
+        """
+        recordings = list(recordings)
+        read = {os.path.realpath(file.path) for file in recordings}
+        written: dict[str, str] = {}
+        for file in recordings:
+            labels = self._label_path(file.name) if self._master is None else None
+            for path in (labels, self.lattice_path(file.name)):
+                if path is None:
+                    continue
+                place = os.path.realpath(path)
+                if place in read:
+                    raise click.UsageError(f"{path} is a recording, and would be written over by results")
+                if place in written:
+                    raise click.UsageError(f"{path} would hold results of {written[place]}, and then of {file.name}")
+                written[place] = file.name
 
     def lattice_path(self, recording: str) -> Path | None:
         """Of the lattice of a recording, where there is one to write."""

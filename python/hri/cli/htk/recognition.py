@@ -241,6 +241,7 @@ def vite(
             recognition.require_rate()
         recognition.run(_streams(played, paced, device, stall_s), as_json, with_labels=trace > 0)
         return
+    results.require_apart(recordings)
     period = check_headers(recordings, sources.models, configuration)
     recognizers_of: Callable[[DataFile], Iterable[Recognizer]]
     if network is not None:
