@@ -14,7 +14,7 @@
 namespace hri {
 namespace {
 
-constexpr int kRowsAtOnce = 64;
+constexpr int kStepsAtOnce = 64;
 
 // A feature map: frames of bands of channels, which are `stride` values apart.
 struct MapShape {
@@ -22,16 +22,17 @@ struct MapShape {
   int bands = 0;
   int stride = 0;
 
-  [[nodiscard]] std::size_t size() const {
-    return static_cast<std::size_t>(frames) * static_cast<std::size_t>(bands) *
-           static_cast<std::size_t>(stride);
+  [[nodiscard]] std::size_t row_size() const {
+    return static_cast<std::size_t>(bands) * static_cast<std::size_t>(stride);
   }
+  [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(frames) * row_size(); }
 };
 
 // What a call works in; kept by the thread for the next one.
 struct Workspace {
   std::vector<float> padded;
   std::vector<float> map;
+  std::vector<float> shared;
   std::vector<std::ptrdiff_t> places;
   std::vector<std::ptrdiff_t> taps;
 };
@@ -127,8 +128,9 @@ using detail::PackedLayer;
 
 // The map that a layer reads: pooled by the layer before it (`pool`, of the map `from`), and with
 // zeros beside its bands.
-void pool_and_pad(const std::vector<float>& from, const MapShape& shape, const ConvLayer& pool,
-                  int channels, int pad, const MapShape& to, std::vector<float>* padded) {
+void pool_and_pad(const float* from, const MapShape& shape, const ConvLayer& pool, int pad,
+                  const MapShape& to, std::vector<float>* padded) {
+  const int channels = pool.out_channels;
   padded->assign(to.size(), 0.0F);
   const auto stride = static_cast<std::size_t>(shape.stride);
   for (int t = 0; t < to.frames; ++t) {
@@ -137,8 +139,8 @@ void pool_and_pad(const std::vector<float>& from, const MapShape& shape, const C
                                         static_cast<std::size_t>(to.stride);
       for (int i = 0; i < pool.pool_frames; ++i) {
         for (int j = 0; j < pool.pool_bands; ++j) {
-          const float* in = from.data() + stride * static_cast<std::size_t>(
-                                                       (t * pool.pool_frames + i) * shape.bands +
+          const float* in =
+              from + stride * static_cast<std::size_t>((t * pool.pool_frames + i) * shape.bands +
                                                        b * pool.pool_bands + j);
           if (i == 0 && j == 0) {
             std::copy(in, in + channels, out);
@@ -180,6 +182,22 @@ MapShape convolve(const PackedLayer& layer, const MapShape& shape, Workspace* wo
   return out;
 }
 
+// A map, and the layer that it comes from, which has not pooled it yet.
+struct Layered {
+  MapShape shape;
+  const ConvLayer* before;
+};
+
+// The convolution of a layer, of the map `from`, into work->map.
+Layered next_layer(const PackedLayer& layer, const Layered& last, const float* from,
+                   Workspace* work) {
+  const int pad = layer.sizes.pad_bands;
+  const MapShape padded{last.shape.frames / last.before->pool_frames, layer.in_bands + 2 * pad,
+                        layer.sizes.in_channels};
+  pool_and_pad(from, last.shape, *last.before, pad, padded, &work->padded);
+  return {convolve(layer, padded, work), &layer.sizes};
+}
+
 }  // namespace
 
 ConvNetwork::ConvNetwork(int num_bands, const std::vector<ConvLayer>& layers)
@@ -211,42 +229,65 @@ int ConvNetwork::num_rows(int num_frames) const {
   return num_frames < window_frames_ ? 0 : (num_frames - window_frames_) / step_frames_ + 1;
 }
 
-MatrixF ConvNetwork::compute(ConstMatrixRefF frames) const {
+MatrixF ConvNetwork::compute(ConstMatrixRefF frames, int rows_per_step) const {
   if (frames.cols() != num_bands_) {
     fail(ErrorKind::invalid_argument, "frames have " + std::to_string(frames.cols()) +
                                           " values, the network takes " +
                                           std::to_string(num_bands_));
   }
-  const int rows = num_rows(static_cast<int>(frames.rows()));
+  require(rows_per_step >= 1 && step_frames_ % rows_per_step == 0,
+          "rows_per_step must divide the frames from one row to the next");
+  const int shift = step_frames_ / rows_per_step;
+  const int beyond = static_cast<int>(frames.rows()) - window_frames_;
+  const int rows = beyond < 0 ? 0 : beyond / shift + 1;
   MatrixF result(rows, num_outputs_);
   // Maps of an hour would take gigabytes.
-  for (int first = 0; first < rows; first += kRowsAtOnce) {
-    const int count = std::min(kRowsAtOnce, rows - first);
-    compute_rows(frames.middleRows(static_cast<Eigen::Index>(first) * step_frames_,
-                                   window_frames_ + (count - 1) * step_frames_),
-                 result.middleRows(first, count));
+  const int at_once = kStepsAtOnce * rows_per_step;
+  for (int first = 0; first < rows; first += at_once) {
+    const int count = std::min(at_once, rows - first);
+    compute_rows(frames.middleRows(static_cast<Eigen::Index>(first) * shift,
+                                   window_frames_ + (count - 1) * shift),
+                 rows_per_step, result.middleRows(first, count));
   }
   return result;
 }
 
-void ConvNetwork::compute_rows(ConstMatrixRefF frames, MatrixRefF out) const {
+// Windows that begin `shift` frames apart read the same map as long as its frames divide `shift`.
+// From the pool on that no longer leaves them there each phase of rows has maps of its own.
+void ConvNetwork::compute_rows(ConstMatrixRefF frames, int rows_per_step, MatrixRefF out) const {
   Workspace& work = workspace();
-  MapShape shape{static_cast<int>(frames.rows()), num_bands_, 1};
-  work.map.resize(shape.size());
-  Eigen::Map<MatrixF>(work.map.data(), shape.frames, num_bands_) = frames;
-  ConvLayer before;
-  int channels = 1;
-  for (const auto& layer : layers_) {
-    const MapShape padded{shape.frames / before.pool_frames,
-                          layer->in_bands + 2 * layer->sizes.pad_bands, channels};
-    pool_and_pad(work.map, shape, before, channels, layer->sizes.pad_bands, padded, &work.padded);
-    shape = convolve(*layer, padded, &work);
-    before = layer->sizes;
-    channels = before.out_channels;
+  const int shift = step_frames_ / rows_per_step;
+  work.map.resize(static_cast<std::size_t>(frames.size()));
+  Eigen::Map<MatrixF>(work.map.data(), frames.rows(), num_bands_) = frames;
+  ConvLayer no_pool;
+  Layered at{{static_cast<int>(frames.rows()), num_bands_, 1}, &no_pool};
+  std::size_t shared = 0;
+  int stride = 1;
+  while (shared < layers_.size() && shift % (stride * at.before->pool_frames) == 0) {
+    stride *= at.before->pool_frames;
+    at = next_layer(*layers_[shared++], at, work.map.data(), &work);
   }
-  const MapShape last{shape.frames / before.pool_frames, shape.bands / before.pool_bands, channels};
-  pool_and_pad(work.map, shape, before, channels, 0, last, &work.padded);
-  out = Eigen::Map<const MatrixF>(work.padded.data(), out.rows(), out.cols());
+  const int num_phases = shift % (stride * at.before->pool_frames) == 0 ? 1 : rows_per_step;
+  std::swap(work.map, work.shared);
+  for (int phase = 0; phase < std::min<int>(num_phases, static_cast<int>(out.rows())); ++phase) {
+    const int skipped = phase * shift / stride;
+    Layered rest = at;
+    rest.shape.frames -= skipped;
+    const float* from =
+        work.shared.data() + static_cast<std::size_t>(skipped) * at.shape.row_size();
+    for (std::size_t i = shared; i < layers_.size(); ++i) {
+      rest = next_layer(*layers_[i], rest, from, &work);
+      from = work.map.data();
+    }
+    const ConvLayer& pool = *rest.before;
+    const MapShape last{rest.shape.frames / pool.pool_frames, rest.shape.bands / pool.pool_bands,
+                        pool.out_channels};
+    pool_and_pad(from, rest.shape, pool, 0, last, &work.padded);
+    for (Eigen::Index row = phase, at_row = 0; row < out.rows(); row += num_phases, ++at_row) {
+      out.row(row) =
+          Eigen::Map<const MatrixF>(work.padded.data() + at_row * num_outputs_, 1, num_outputs_);
+    }
+  }
 }
 
 }  // namespace hri

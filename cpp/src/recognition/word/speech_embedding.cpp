@@ -89,17 +89,7 @@ MatrixF SpeechEmbedding::compute(Span<const float> audio, int sample_rate_hz) co
   }
   MatrixF mel = mel_.compute(audio);
   mel = (mel.array() / kDecibelsPerUnit + kOffset).matrix().eval();
-  const int shift = network_.step_frames() / options_.rows_per_step;
-  const auto frames = static_cast<int>(mel.rows());
-  const int rows =
-      frames < network_.window_frames() ? 0 : (frames - network_.window_frames()) / shift + 1;
-  MatrixF result(rows, num_outputs());
-  for (int phase = 0; phase < std::min(rows, options_.rows_per_step); ++phase) {
-    const MatrixF of_phase = network_.compute(mel.bottomRows(frames - phase * shift));
-    for (Eigen::Index row = 0; row < of_phase.rows(); ++row)
-      result.row(row * options_.rows_per_step + phase) = of_phase.row(row);
-  }
-  return result;
+  return network_.compute(mel, options_.rows_per_step);
 }
 
 std::vector<float> SpeechEmbedding::prepared(Span<const float> word) const {

@@ -108,6 +108,32 @@ TEST(ConvNetwork, GivesAWindowWhatItGivesTheWhole) {
   EXPECT_EQ(network.compute(frames.topRows(9)).rows(), 0);
 }
 
+// Pools of 1, 2, 1, 2, 2 frames: a step of 8, which windows share in part or not at all.
+TEST(ConvNetwork, GivesWindowsBetweenStepsWhatTheyGiveAlone) {
+  std::vector<ConvLayer> layers{random_layer(3, 3, 1, 24), random_layer(2, 1, 24, 26),
+                                random_layer(3, 3, 26, 5), random_layer(1, 1, 5, 7),
+                                random_layer(2, 3, 7, 4)};
+  for (const std::size_t i : {1, 3, 4}) layers[i].pool_frames = 2;
+  const ConvNetwork network(13, layers);
+  ASSERT_EQ(network.step_frames(), 8);
+  const int window = network.window_frames();
+  for (const int rows_per_step : {1, 2, 4, 8}) {
+    const int shift = 8 / rows_per_step;
+    for (const int rows : {1, 2, 3, 64 * rows_per_step + 1}) {
+      const MatrixF frames = random_frames(window + (rows - 1) * shift + shift - 1, 13);
+      const MatrixF whole = network.compute(frames, rows_per_step);
+      ASSERT_EQ(whole.rows(), rows) << rows_per_step;
+      for (int row = 0; row < rows; ++row) {
+        const MatrixF alone = network.compute(frames.middleRows(row * shift, window));
+        EXPECT_EQ(alone, whole.row(row)) << rows_per_step << " " << row;
+      }
+    }
+    EXPECT_EQ(network.compute(random_frames(window - 1, 13), rows_per_step).rows(), 0);
+  }
+  for (const int rows_per_step : {-1, 0, 3, 16})
+    EXPECT_THROW((void)network.compute(random_frames(99, 13), rows_per_step), InvalidArgument);
+}
+
 TEST(ConvNetwork, IsTheSameOnEveryInstructionSet) {
   std::vector<float> in(4000), weights(3 * 7 * detail::kPanel), bias(detail::kPanel);
   const MatrixF numbers = random_frames(1, 6000);

@@ -60,11 +60,13 @@ class HRI_API ConvNetwork {
   [[nodiscard]] int num_rows(int num_frames) const;
 
   /// Of frames in rows, shape (num_frames, num_bands), to shape (num_rows, num_outputs), channels
-  /// beside one another. Throws InvalidArgument for rows of another length.
-  [[nodiscard]] MatrixF compute(ConstMatrixRefF frames) const;
+  /// beside one another. With `rows_per_step` windows begin so many times as often, a divisor of
+  /// step_frames() frames apart; layers that these share are computed once. Throws InvalidArgument
+  /// for rows of another length and for a rows_per_step that does not divide the step.
+  [[nodiscard]] MatrixF compute(ConstMatrixRefF frames, int rows_per_step = 1) const;
 
  private:
-  void compute_rows(ConstMatrixRefF frames, MatrixRefF out) const;
+  void compute_rows(ConstMatrixRefF frames, int rows_per_step, MatrixRefF out) const;
 
   int num_bands_;
   int num_outputs_ = 0;
