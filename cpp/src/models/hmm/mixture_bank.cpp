@@ -21,25 +21,8 @@ using detail::kLog2Pi;
 
 using detail::kMinusInf;
 
-// In float, as models have been scored since format version 1.
-float log_sum_exp(const float* values, int count) {
-  float top = values[0];
-  for (int i = 1; i < count; ++i) top = values[i] > top ? values[i] : top;
-  if (!(top > -std::numeric_limits<float>::infinity())) return top;
-  // Added to a sum of exp(highest) or more, what lies this far below is lost in rounding.
-  constexpr float kLost = 19;
-  float sum = 0;
-  float highest = -std::numeric_limits<float>::infinity();
-  for (int i = 0; i < count; ++i) {
-    const float exponent = values[i] - top;
-    if (exponent < highest - kLost) continue;
-    sum += std::exp(exponent);
-    highest = std::max(highest, exponent);
-  }
-  return top + std::log(sum);
-}
-
-// The same of all states in double, with the exponentials of all components side by side.
+// Log densities of states from those of their components, in double, with the exponentials of all
+// components side by side.
 class Mixing {
  public:
   Mixing(int num_states, int num_mixtures)
@@ -154,7 +137,7 @@ void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixRefF out) const {
           "out must have shape (num_frames, num_states)");
   const auto table = table_of(columns_f_, means_.rows(), dim());
   thread_local std::vector<float> scratch;
-  scratch.resize(static_cast<std::size_t>(table.stride));
+  scratch.resize(static_cast<std::size_t>(2 * table.stride));
   const detail::MixtureKernels& kernels = detail::mixture_kernels();
   const int k = num_mixtures();
   for (Eigen::Index t = 0; t < frames.rows(); ++t) {
@@ -162,9 +145,10 @@ void MixtureBank::log_densities(ConstMatrixRefF frames, MatrixRefF out) const {
     for (std::size_t r = 0; r < constants_f_.size(); ++r)
       scratch[r] = constants_f_[r] - 0.5F * scratch[r];
     float* of_frame = out.data() + t * out.outerStride();
-    for (int j = 0; j < num_states(); ++j) {
-      const float* own = scratch.data() + static_cast<std::ptrdiff_t>(j) * k;
-      of_frame[j] = k == 1 ? *own : log_sum_exp(own, k);
+    if (k == 1) {
+      std::copy_n(scratch.data(), constants_f_.size(), of_frame);
+    } else {
+      kernels.log_sums(scratch.data(), num_states(), k, scratch.data() + table.stride, of_frame);
     }
   }
 }

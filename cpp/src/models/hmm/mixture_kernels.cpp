@@ -2,6 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/hmm/mixture_kernels.hpp"
 
+#include <cstdint>
+#include <limits>
+
+namespace hri::detail {
+namespace {
+
+constexpr float kNothing = -std::numeric_limits<float>::infinity();
+
+}  // namespace
+}  // namespace hri::detail
+
 #define HRI_KERNEL_FILE "models/hmm/mixture_kernels.inc"
 #include "core/foreach_instruction_set.inc"
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The hri contributors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Distances of a frame from many Gaussians at once, one Gaussian a lane. The columns of a Gaussian
-// are summed in the same order whatever the instruction set, without fused multiply-adds, so that
-// all give the same bits.
+// Distances of a frame from many Gaussians at once, one Gaussian a lane, and their mixtures. The
+// columns of a Gaussian are summed in the same order whatever the instruction set, without fused
+// multiply-adds, so that all give the same bits.
 #pragma once
 
 #include <cstddef>
@@ -28,6 +28,10 @@ struct MixtureKernels {
   /// sums of every 16th or 8th column, which are added in pairs: l and l + 8, l and l + 4...
   void (*distances_f)(const float* x, const GaussianColumns<float>& table, float* out);
   void (*distances)(const double* x, const GaussianColumns<double>& table, double* out);
+  /// out[j] = log of the sum of the exponentials of the `num_mixtures` components of state j, which
+  /// lie side by side; minus infinity where none is finite. Both lists have room for a multiple of
+  /// 8 values, and are overwritten. To two units in the last place.
+  void (*log_sums)(float* components, int num_states, int num_mixtures, float* scratch, float* out);
 };
 
 /// Those of the widest instruction set this machine has.

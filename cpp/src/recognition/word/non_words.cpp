@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/normal_kernels.hpp"
+
 namespace hri::detail {
 namespace {
 
@@ -46,11 +48,13 @@ std::vector<float> envelope(const std::vector<float>& word, std::size_t width) {
 std::vector<float> NonWords::noise(std::size_t size) {
   const double pole = -0.5 + 1.45 * random_.uniform();
   const double gain = std::sqrt(1.0 - pole * pole);
+  std::vector<double> steps(size);
+  fill_normals(&random_, {steps.data(), steps.size()});
   std::vector<float> result(size);
   double y = 0;
-  for (float& x : result) {
-    y = gain * random_.normal() + pole * y;
-    x = static_cast<float>(y);
+  for (std::size_t i = 0; i < size; ++i) {
+    y = gain * steps[i] + pole * y;
+    result[i] = static_cast<float>(y);
   }
   return result;
 }

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/normal_kernels.hpp"
+
 namespace hri::detail {
 
 double mean_power(Span<const float> audio) {
@@ -15,10 +17,11 @@ double mean_power(Span<const float> audio) {
 std::vector<float> with_noise(Span<const float> audio, double power, Random* random) {
   const double pole = 0.97 * random->uniform();
   std::vector<double> noise(audio.size());
+  fill_normals(random, {noise.data(), noise.size()});
   double state = 0;
   double sum = 0;
   for (double& x : noise) {
-    state = pole * state + random->normal();
+    state = pole * state + x;
     x = state;
     sum += state * state;
   }

@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
 #include "hri/core/error.hpp"
 #include "models/hmm/dense_kernels.hpp"
 #include "models/hmm/mixture_training.hpp"
@@ -62,6 +67,44 @@ void expect_plain_sums(const Kernel& kernel_of) {
 TEST(MixtureKernels, GiveTheSameBitsAsPlainLoopsOnEveryInstructionSet) {
   expect_plain_sums<float>([](const MixtureKernels& k) { return k.distances_f; });
   expect_plain_sums<double>([](const MixtureKernels& k) { return k.distances; });
+}
+
+TEST(MixtureKernels, LogSumsAreThoseOfDoublesOnEveryInstructionSet) {
+  constexpr float kNone = -std::numeric_limits<float>::infinity();
+  for (const int k : {1, 2, 3, 4, 9}) {
+    for (const int num_states : {1, 7, 8, 30}) {
+      const auto count = static_cast<std::size_t>(num_states) * static_cast<std::size_t>(k);
+      const MatrixF drawn = noise(1, static_cast<Eigen::Index>(count), 5) * 30.0F;
+      std::vector<float> components(drawn.data(), drawn.data() + count);
+      if (num_states > 1) std::fill_n(components.begin(), k, kNone);
+      if (k > 1) components.back() = kNone;
+      if (k > 2) components[count - 2] = components[count - 3];
+      std::vector<float> first;
+      for (const MixtureKernels* kernels : all_mixture_kernels()) {
+        std::vector<float> work(components);
+        work.resize(static_cast<std::size_t>(padded(static_cast<std::ptrdiff_t>(count))), 7.0F);
+        std::vector<float> scratch(work.size());
+        std::vector<float> found(static_cast<std::size_t>(num_states) + 1, -7.0F);
+        kernels->log_sums(work.data(), num_states, k, scratch.data(), found.data());
+        EXPECT_EQ(found.back(), -7.0F);
+        if (first.empty()) first = found;
+        EXPECT_EQ(found, first);
+        for (int j = 0; j < num_states; ++j) {
+          const float* own = components.data() + static_cast<std::ptrdiff_t>(j) * k;
+          const auto top = static_cast<double>(*std::max_element(own, own + k));
+          double sum = 0;
+          for (int c = 0; c < k; ++c) sum += std::exp(static_cast<double>(own[c]) - top);
+          const float value = found[static_cast<std::size_t>(j)];
+          if (top == static_cast<double>(kNone)) {
+            EXPECT_EQ(value, kNone);
+          } else {
+            const double expected = top + std::log(sum);
+            EXPECT_NEAR(value, expected, 2e-7 * (1 + std::abs(expected))) << j << " of " << k;
+          }
+        }
+      }
+    }
+  }
 }
 
 int nearest_by_eigen(const MatrixD& centres, const Eigen::RowVectorXd& row) {
