@@ -7,14 +7,16 @@ from __future__ import annotations
 import re
 import shutil
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import hri
-from conftest import QUICK, RATE_HZ
+from conftest import QUICK, RATE_HZ, tone_word
 from hri.io import write_wav_pcm16
+from hri.recognition import ConnectedWordRecognizer, SubwordRecognizer, WordRecognizer
 from hri.training import choices, choose_options
 
 
@@ -138,19 +140,19 @@ def test_what_is_trained_is_said_before(
 
 
 @pytest.mark.parametrize(
-    ("command", "fit"),
+    ("command", "trained"),
     [
-        (("train", "speech", *QUICK), "WordRecognizer"),
-        (("train-connected", "--front-end", "cepstra"), "ConnectedWordRecognizer"),
-        (("train-units",), "SubwordRecognizer"),
+        (("train", "speech", *QUICK), WordRecognizer),
+        (("train-connected", "--front-end", "cepstra"), ConnectedWordRecognizer),
+        (("train-units",), SubwordRecognizer),
     ],
     ids=lambda value: value[0] if isinstance(value, tuple) else "",
 )
 def test_recordings_without_speech_are_named(
-    hri: Any, spoken: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: tuple[str, ...], fit: str
+    hri: Any, spoken: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: tuple[str, ...], trained: type
 ) -> None:
-    """Training leaves them out without a word."""
-    monkeypatch.setattr(f"hri.recognition.{fit}.fit", lambda *_, **__: 1 / 0)
+    """Training leaves them out; they are named before it begins."""
+    monkeypatch.setattr(trained, "_native_class", SimpleNamespace(train=lambda *_: 1 / 0))
     folder = tmp_path / "spoken"
     shutil.copytree(spoken, folder)
     given = (*command, "--data", folder, "--out", tmp_path / "m.hri")
@@ -159,9 +161,21 @@ def test_recordings_without_speech_are_named(
     for number in range(12):
         write_wav_pcm16(str(folder / f"1_low_{10 + number}.wav"), silence, RATE_HZ // (1 + number % 2))
         if number == 0:
-            one = f"WARNING: no speech is found in 1 recording, which is not learned from: {folder}/1_low_10.wav\n"
-            assert one in hri(*given).err
+            named = f"{folder}/1_low_10.wav\n"
+            assert f": no speech is found in 1 recording, which is not learned from: {named}" in hri(*given).err
     warned = next(line for line in hri(*given).err.splitlines() if "no speech" in line)
     assert "in 12 recordings, which are not learned from" in warned and warned.endswith("1_low_19.wav and 2 more")
     cut = hri(*given, "--option", f"{'' if command[0] == 'train' else 'words.'}activity.silence_dbfs=0")
     assert "no speech is found in 30 recordings" in cut.err, "as training finds it"
+
+
+def test_the_log_names_arrays_without_speech(caplog: pytest.LogCaptureFixture) -> None:
+    rng = np.random.default_rng(0)
+    words = [tone_word(frequency_hz, 0, seed) for seed in range(3) for frequency_hz in (400, 900)]
+    silence = [0.0001 * rng.normal(size=RATE_HZ).astype(np.float32)] * 2
+    trained = hri.WordRecognizer(front_end="cepstra")
+    trained.fit([*words, *silence], ["low", "high"] * 4, sample_rate_hz=RATE_HZ, fillers=())
+    assert trained.predict(words, RATE_HZ).tolist() == ["low", "high"] * 3
+    assert [record.getMessage() for record in caplog.records if record.levelname == "WARNING"] == [
+        "no speech is found in 2 recordings, which are not learned from: X[6] X[7]"
+    ]

@@ -28,7 +28,7 @@ from hri.cli.recognizers import (
     pattern_option,
     refuse_chosen,
 )
-from hri.cli.train_checks import summary_of, warn_of_silence
+from hri.cli.train_checks import summary_of
 from hri.core.display import count
 from hri.core.errors import InvalidArgument
 from hri.io import SpokenWords
@@ -149,7 +149,6 @@ def train_connected(
         note(f"not recorded, said by {count(num_voices, 'synthetic voice')}: {listed(spellings)}")
     note(_what_words_are_of(recognizer))
     clips = [read_audio(sample.path) for sample in dataset.samples]
-    warn_of_silence(clips, recognizer.options.words)
     labels = [sample.label for sample in dataset.samples]
     persons = [sample.person for sample in dataset.samples]
     with progress_bars() as progress:

@@ -32,9 +32,8 @@ from hri.cli.recognizers import (
     pattern_option,
     recognizer_factory,
 )
-from hri.cli.train_checks import check_recordings, summary_of, warn_of_silence
+from hri.cli.train_checks import check_recordings, summary_of
 from hri.datasets import Dataset
-from hri.media import read_audio
 from hri.recognition import FillerWord, GestureRecognizer, WordRecognizer
 from hri.training import fillers_of
 from hri.training import train as train_recognizer
@@ -151,13 +150,6 @@ def train(
     if why_source:
         note(why_source)
     with progress_bars() as progress:
-        if isinstance(untrained, WordRecognizer):
-            clips = []
-            for sample in dataset:
-                clips.append(read_audio(sample.path))
-                progress("looking for speech", len(clips), len(dataset))
-            warn_of_silence(clips, untrained.options)
-            del clips
         recognizer = train_recognizer(
             dataset, untrained, fillers=others, embedding=embedding, noises=noises, rooms=rooms, progress=progress
         )

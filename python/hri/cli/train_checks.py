@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 
@@ -14,16 +13,10 @@ from hri.core.display import count
 from hri.core.errors import Error, InvalidArgument
 from hri.datasets import Dataset
 from hri.io import ModelFile
-from hri.media import Audio
-from hri.recognition import WordRecognizerOptions
-from hri.signal import find_speech, resample
 
 MOST_SINGLE = 10
 """Labels of one recording each of which a vocabulary may consist that replaces another one."""
 _NAMED = 5
-_SILENT_NAMED = 10
-_DEFAULT_RATE_HZ = 16000
-"""Of models whose options leave the rate to the recordings: the lowest of these, and no higher one."""
 
 
 def check_recordings(dataset: Dataset, kept: Path | None) -> None:
@@ -67,36 +60,6 @@ def summary_of(dataset: Dataset) -> str:
     persons = f"{count(len(dataset.persons), 'person')}, " if dataset.persons else ""
     labels = f"{count(len(dataset.labels), 'label')}: {listed(dataset.labels)}"
     return f"{count(len(dataset), 'recording')}, {persons}{labels}"
-
-
-def warn_of_silence(clips: Sequence[Audio], options: WordRecognizerOptions) -> None:
-    """Name the files in which training will find no speech: it leaves them out.
-
-    Parameters
-    ----------
-    clips : sequence of Audio
-        All that is trained on, as it was read.
-    options : WordRecognizerOptions
-        Of training.
-    """
-    rate_hz = options.cepstra.sample_rate_hz or min([_DEFAULT_RATE_HZ, *(clip.sample_rate_hz for clip in clips)])
-    silent = [str(clip.path) for clip in clips if _is_silent(clip, rate_hz, options)]
-    if silent:
-        more = f" and {len(silent) - _SILENT_NAMED} more" if len(silent) > _SILENT_NAMED else ""
-        which = "is" if len(silent) == 1 else "are"
-        named = " ".join(silent[:_SILENT_NAMED])
-        number = count(len(silent), "recording")
-        note(f"WARNING: no speech is found in {number}, which {which} not learned from: {named}{more}")
-
-
-def _is_silent(clip: Audio, rate_hz: int, options: WordRecognizerOptions) -> bool:
-    samples = clip.samples
-    try:
-        if clip.sample_rate_hz != rate_hz:
-            samples = resample(samples, clip.sample_rate_hz, rate_hz)
-        return find_speech(samples, rate_hz, options.activity) is None
-    except InvalidArgument:  # too short, or a rate that is none: training says so
-        return False
 
 
 def _labels(path: Path) -> list[str] | None:

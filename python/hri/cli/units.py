@@ -20,7 +20,7 @@ from hri.cli.recognizers import (
     parse_options,
     pattern_option,
 )
-from hri.cli.train_checks import summary_of, warn_of_silence
+from hri.cli.train_checks import summary_of
 from hri.core.display import count
 from hri.core.errors import InvalidArgument
 from hri.core.files import read_text
@@ -96,7 +96,6 @@ def train_units(
     path.parent.mkdir(parents=True, exist_ok=True)
     note(summary_of(dataset))
     clips = [read_audio(sample.path) for sample in dataset.samples]
-    warn_of_silence(clips, recognizer.options.words)
     with progress_bars() as progress:
         recognizer.fit(
             clips,

@@ -20,6 +20,7 @@ from hri.media import naming_file, naming_files
 from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_labels, each_audio, require_sequence
 from hri.recognition.keywords import ConnectedDecoderKeywords, ConnectedWordRecognizerKeywords
 from hri.recognition.sentence.transcript import Transcript, transcript_of
+from hri.recognition.silence import warn_of_silence
 from hri.recognition.word.embedding import SpeechEmbedding
 from hri.recognition.word.fillers import FillerWord, filler_words
 from hri.recognition.word.with_embedding import RecognizerWithEmbedding
@@ -124,11 +125,16 @@ class ConnectedWordRecognizer(RecognizerWithEmbedding):
             For lengths that differ, a recording that is not finite or too short, or a label without speech.
         Interrupted
             When Ctrl-C is pressed; the recogniser is left as it was.
+
+        Notes
+        -----
+        Recordings without speech are left out; a warning of the log names them.
         """
         labels, speakers = as_labels(X, y, groups)
         native_embedding = self._native_embedding(embedding)
         clips = as_audios(X, sample_rate_hz)
         _log.info("training on %d recordings of %d words", len(clips), len(set(labels)))
+        warn_of_silence(clips, self.options.words)
         others: list[FillerWord] = []
         if self.options.unknown_words:
             given = filler_words() if fillers is None else fillers

@@ -26,6 +26,7 @@ from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_labels, e
 from hri.recognition.keywords import SubwordRecognizerKeywords
 from hri.recognition.loading import load_native
 from hri.recognition.quality import speech_snr_db
+from hri.recognition.silence import warn_of_silence
 
 _log = logging.getLogger(__name__)
 
@@ -107,9 +108,14 @@ class SubwordRecognizer(Recognizer):
             For labels that the dictionary has not, where espeak-ng is not installed.
         Interrupted
             When Ctrl-C is pressed; the recogniser is left as it was.
+
+        Notes
+        -----
+        Recordings without speech are left out; a warning of the log names them.
         """
         labels, speakers = as_labels(X, y, groups)
         clips = as_audios(X, sample_rate_hz)
+        warn_of_silence(clips, self.options.words)
         lexicon = _lexicon(sorted(set(labels)), language, spellings or {}, dictionary)
         _log.info("training on %d utterances of %d words", len(clips), len(lexicon.entries))
         with naming_files([clip.path for clip in clips], "X"):

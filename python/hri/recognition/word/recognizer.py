@@ -23,6 +23,7 @@ from hri.recognition.held_out_report import HeldOutReport
 from hri.recognition.inputs import AudioInput, as_audio, as_audios, as_labels, each_audio
 from hri.recognition.keywords import WordRecognizerKeywords
 from hri.recognition.quality import speech_snr_db
+from hri.recognition.silence import warn_of_silence
 from hri.recognition.word.embedding import SpeechEmbedding
 from hri.recognition.word.fillers import FillerWord, embedding_filler_words, filler_words
 from hri.recognition.word.with_embedding import RecognizerWithEmbedding
@@ -135,6 +136,10 @@ class WordRecognizer(RecognizerWithEmbedding):
             without others.
         Interrupted
             When Ctrl-C is pressed; the recogniser is left as it was.
+
+        Notes
+        -----
+        Recordings without speech are left out; a warning of the log names them.
         """
         labels, speakers = as_labels(X, y, groups)
         made_of = [""] * len(X) if recordings is None else as_texts(recordings, "recordings")
@@ -148,6 +153,7 @@ class WordRecognizer(RecognizerWithEmbedding):
             embedding_fillers = embedding_filler_words() if takes_more else ()
         clips = as_audios(X, sample_rate_hz)
         _log.info("training on %d utterances of %d words", len(clips), len(set(labels)))
+        warn_of_silence(clips, self.options)
         others = filler_words() if fillers is None else fillers
         with naming_files([clip.path for clip in clips], "X"):
             self._native = self._native_class.train(

@@ -56,10 +56,11 @@ class RecognizerWithEmbedding(Recognizer):
             For a front end that reads an embedding, without weights; names the extra.
         """
         recognizer = cls._wrap(load_native(lambda file: cls._native_of(file, embedding), path, cls._kind))
-        try:
-            recognizer._native_embedding(embedding)
-        except InvalidArgument as error:
-            raise InvalidArgument(f"{fspath(path)}: {error}") from None
+        if embedding is not None:
+            try:
+                recognizer._native_embedding(embedding)
+            except InvalidArgument as error:
+                raise InvalidArgument(f"{fspath(path)}: {error}") from None
         recognizer._embedding = embedding
         return recognizer
 
