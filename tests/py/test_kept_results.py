@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import subprocess
 import sys
@@ -95,10 +96,42 @@ def test_the_same_values_stamp_a_stale_result(data_dir: Path) -> None:
     assert stamped["rows"] == found["rows"]
 
 
-def test_a_value_that_differs_in_its_last_digit_is_refused(data_dir: Path) -> None:
+def test_a_value_that_differs_by_more_than_rounding_is_refused(data_dir: Path) -> None:
     found = measure(data_dir)
-    with pytest.raises(InvalidArgument, match=r"made-up: far, ann was 0\.5, is 0\.50000"):
-        kept.verify(study(1e-12), found, data_dir, lambda *progress: None)
+    kept.verify(study(1e-7), found, data_dir, lambda *progress: None)
+    with pytest.raises(InvalidArgument, match=r"made-up: far, ann was 0\.5, is 0\.50001"):
+        kept.verify(study(1e-5), found, data_dir, lambda *progress: None)
+
+
+@pytest.mark.parametrize(
+    ("then", "now", "same"),
+    [
+        (1000.0, 1000.0005, True),
+        (1000.0, 1000.002, False),
+        (6.08015e-05, 6.07967e-05, True),
+        (3, 4, False),
+        (3000000, 3000001, False),
+        (math.nan, math.nan, True),
+        (math.inf, -math.inf, False),
+        (0.0, math.nan, False),
+        (True, False, False),
+        ("a", "b", False),
+        ({"a": [0.5, 1]}, {"a": [0.5 + 1e-9, 1]}, True),
+        ({"a": [0.5, 1]}, {"a": [0.5, 2]}, False),
+        ({"a": [0.5]}, {"a": [0.5, 0.5]}, False),
+        ({"a": 0.5}, {"b": 0.5}, False),
+    ],
+)
+def test_counts_are_compared_to_the_last_digit_and_other_numbers_to_a_millionth(
+    then: object, now: object, same: bool
+) -> None:
+    row = {"kind": "far", "value_mean": then}
+    again = {"rows": [{**row, "value_mean": now}]}
+    if same:
+        kept.compare("x", {"rows": [row]}, again)
+    else:
+        with pytest.raises(InvalidArgument, match="value_mean was"):
+            kept.compare("x", {"rows": [row]}, again)
 
 
 def several(right: float = 0.6, pooled: float = 0.7, folds: int | None = None) -> dict[str, Any]:

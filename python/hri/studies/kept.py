@@ -4,8 +4,9 @@
 
 A kept result names the commit it was measured at and the hash of every room of the source tree that it depends on (see
 `hri.studies.provenance`). Where one of these has changed since, `verify` measures a part of it anew: in that part every
-value of every fold that is kept has to be the same to the last digit, and of a row measured whole every measure. Then
-the result is stamped with the present commit; otherwise it has to be measured again. Where ``"rounded_to"`` says that
+value of every fold that is kept has to be the same, and of a row measured whole every measure. Counts are the same to
+the last digit, other numbers to a millionth, as processors and orders of summation round otherwise. Then the result is
+stamped with the present commit; otherwise it has to be measured again. Where ``"rounded_to"`` says that
 only means were kept, rounded to so many decimals, these are compared. Of what stands beside the rows, the ``"options"``
 are compared where both have them: a default that has changed may leave one fold as it was, and not the others.
 """
@@ -13,6 +14,7 @@ are compared where both have them: a default that has changed may leave one fold
 from __future__ import annotations
 
 import json
+import math
 import os
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
@@ -27,6 +29,8 @@ from hri.studies.tables import PER_FOLD, Row, axes_of, folds_of
 
 Only = Mapping[str, Sequence[str]]
 _NOTHING = object()
+_ROUNDING = 1e-6
+"""Of a number, or by itself where that is below 1."""
 
 
 def measure(
@@ -119,7 +123,7 @@ def _quick(study: Study, only: Only) -> dict[str, list[str]]:
 
 
 def compare(name: str, kept: Row, fresh: Row, limited: bool = False) -> None:
-    """Raise InvalidArgument unless every measured value of `fresh` is the one of `kept`, to the last digit kept.
+    """Raise InvalidArgument unless every measured value of `fresh` is the one of `kept`, but for rounding.
 
     Of every row, each measure is compared in the folds measured anew, where the kept result has its folds; of a row of
     which all folds were measured, everything. With `limited`, not all folds were asked for: then a row without folds
@@ -148,11 +152,22 @@ def compare(name: str, kept: Row, fresh: Row, limited: bool = False) -> None:
                 raise InvalidArgument(f"{name}: the kept result has no {_said((*place, *what))}")
             if now is _NOTHING:
                 raise InvalidArgument(f"{name}: {_said((*place, *what))} is no longer measured")
-            if json.dumps(then, sort_keys=True) != json.dumps(now, sort_keys=True):  # as text: NaN is itself
+            if not _same(then, now):
                 raise InvalidArgument(f"{name}: {_said((*place, *what))} was {then}, is {now}")
             compared += 1
     if not compared:
         raise InvalidArgument(f"{name}: nothing was measured that can be compared")
+
+
+def _same(then: Any, now: Any) -> bool:
+    """Whether two measured values are one; of numbers that are not whole one is rounded otherwise at most."""
+    if isinstance(then, dict) and isinstance(now, dict):
+        return then.keys() == now.keys() and all(_same(then[key], now[key]) for key in then)
+    if isinstance(then, list) and isinstance(now, list):
+        return len(then) == len(now) and all(_same(a, b) for a, b in zip(then, now, strict=True))
+    if isinstance(then, float) and isinstance(now, float) and math.isfinite(then) and math.isfinite(now):
+        return math.isclose(then, now, rel_tol=_ROUNDING, abs_tol=_ROUNDING)
+    return json.dumps(then) == json.dumps(now)  # as text: NaN is itself
 
 
 def _changed_options(then: Any, now: Any, place: str = "") -> Iterator[tuple[str, Any, Any]]:
