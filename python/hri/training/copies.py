@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -31,7 +32,8 @@ def in_noise(audio: Audio, noises: Sequence[str], rng: np.random.Generator) -> A
     noise = find_noise(name, len(audio.samples), audio.sample_rate_hz, rng)
     if noise is None:
         return audio
-    return replace(audio, samples=mix_noise(audio.samples, noise, snr_db, audio.sample_rate_hz))
+    mixed = mix_noise(audio.samples, noise, snr_db, audio.sample_rate_hz)
+    return replace(audio, samples=mixed, path=_named(audio, "in noise"))
 
 
 def across_a_room(audio: Audio, rng: np.random.Generator) -> Audio:
@@ -42,4 +44,10 @@ def across_a_room(audio: Audio, rng: np.random.Generator) -> Audio:
     audio : Audio
     rng : numpy.random.Generator
     """
-    return replace(audio, samples=AcrossRooms()(audio.samples, audio.sample_rate_hz, rng))
+    heard = AcrossRooms()(audio.samples, audio.sample_rate_hz, rng)
+    return replace(audio, samples=heard, path=_named(audio, "across a room"))
+
+
+def _named(audio: Audio, how: str) -> Path | None:
+    """What messages call the copy: that no speech is found in it does not say so of the recording."""
+    return None if audio.path is None else audio.path.with_name(f"{audio.path.name} {how}")
