@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,13 @@ void decide(const ModelFile& file) {
       classifier.decision_values({row.data(), static_cast<std::size_t>(classifier.dim())}));
 }
 
+// Of a few weights; the seeds that read an embedding were trained with it.
+const std::shared_ptr<const hri::SpeechEmbedding>& embedding() {
+  static const auto kEmbedding = std::make_shared<const hri::SpeechEmbedding>(
+      hri::SpeechEmbedding::load(HRI_FUZZ_FOLDER "/embedding.onnx"));
+  return kEmbedding;
+}
+
 struct TemporaryFile {
   std::string path =
       (std::filesystem::temp_directory_path() / "model_fuzz.").string() + std::to_string(getpid());
@@ -117,7 +125,7 @@ void use(const ModelFile& file) {
   const std::string kind = file.kind();
   if (kind == "word_recognizer") {
     static const std::vector<float> kTone = tone();
-    const auto words = hri::WordRecognizer::from_model_file(file);
+    const auto words = hri::WordRecognizer::from_model_file(file, embedding());
     hri::fuzzing::check(words.recognise({kTone.data(), kTone.size()}, 8000));
   } else if (kind == "subword_recognizer") {
     static const std::vector<float> kTone = tone();
@@ -135,7 +143,7 @@ void use(const ModelFile& file) {
     }
   } else if (kind == "connected_word_recognizer") {
     static const std::vector<float> kTone = tone();
-    const auto words = hri::ConnectedWordRecognizer::from_model_file(file);
+    const auto words = hri::ConnectedWordRecognizer::from_model_file(file, embedding());
     hri::TranscriptionQuery query;
     for (const int num_words : {0, 2}) {
       query.num_words = num_words;
