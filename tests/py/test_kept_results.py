@@ -109,6 +109,7 @@ def test_a_value_that_differs_by_more_than_rounding_is_refused(data_dir: Path) -
         (1000.0, 1000.0005, True),
         (1000.0, 1000.002, False),
         (6.08015e-05, 6.07967e-05, True),
+        (6.0e-05, 6.2e-05, False),
         (3, 4, False),
         (3000000, 3000001, False),
         (math.nan, math.nan, True),
